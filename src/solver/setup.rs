@@ -1,0 +1,176 @@
+//! What a backend is asked to run: one flow, entirely in lattice units.
+//!
+//! A [`Setup`] is the only thing that crosses from the scene side (SI units,
+//! [`crate::plan`]) to the solver side. Lattice units: Δx = Δt = 1, reference
+//! density 1, c_s² = 1/3.
+
+use std::sync::Arc;
+
+use crate::collision::CollisionChoice;
+use crate::rheology::Law;
+
+/// What happens to populations that would arrive through one face of the box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Face {
+    /// They arrive from the opposite face. Both faces of an axis must agree.
+    Periodic,
+    /// Half-way no-slip wall at rest \[B1\]; the wall lies half a cell outside the first cell centre.
+    NoSlip,
+    /// Half-way no-slip wall moving with this velocity (lattice units) \[B1\].
+    Moving([f64; 3]),
+    /// Mirror plane \[B2\], half a cell outside the first cell centre.
+    FreeSlip,
+}
+
+/// Rigid motion of a solid that stays where it is on the grid: its surface
+/// velocity is `velocity + spin × (x − centre)` (004 Eq 3.38, product order corrected).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SolidMotion {
+    /// Translation velocity, lattice units.
+    pub velocity: [f64; 3],
+    /// Angular velocity, radians per step.
+    pub spin: [f64; 3],
+    /// Centre of rotation, in cells; the centre of cell (i, j, k) is at (i+½, j+½, k+½).
+    pub centre: [f64; 3],
+}
+
+/// How the yield stress enters the relaxation time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum YieldTreatment {
+    /// [Y1]–[Y3]: solved exactly in each cell, no viscosity cap.
+    Exact,
+    /// [Y3] with the resulting τ clamped: the trilinear law, implicit.
+    ImplicitClamped { tau_min: f64, tau_max: f64 },
+    /// [Y4]: the papers' scheme; γ̇ from the previous step's τ, then clamped (one more field: τ).
+    LaggedClamped { tau_min: f64, tau_max: f64 },
+}
+
+/// Which wall velocity half-way bounce-back uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WallRule {
+    /// [B1] as it stands.
+    HalfWay,
+    /// [B3]: the wall velocity minus the known slip, so that it does not depend on viscosity.
+    ViscosityIndependent,
+}
+
+/// Body force per volume (lattice units); enters as a constant force, not ρg \[L5\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BodyForce {
+    /// The same at all times.
+    Constant([f64; 3]),
+    /// `mean + amplitude · cos(frequency · t + phase)`, t in steps, frequency in radians per step.
+    Oscillating { mean: [f64; 3], amplitude: [f64; 3], frequency: f64, phase: f64 },
+    /// `before` until step `at`, `after` from that step on.
+    Stepped { before: [f64; 3], after: [f64; 3], at: u64 },
+}
+
+/// One point of an initial flow, lattice units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlowPoint {
+    /// Density; pressure is (density − 1)/3.
+    pub density: f64,
+    /// Velocity.
+    pub velocity: [f64; 3],
+    /// `gradient[a][b] = ∂u_a/∂x_b`; starts the populations with the right stress.
+    pub gradient: [[f64; 3]; 3],
+}
+
+/// Initial flow as a function of the cell index; `None` in [`Setup`] means rest at density 1.
+pub type InitialFlow = Arc<dyn Fn([usize; 3]) -> FlowPoint + Send + Sync>;
+
+/// One flow in lattice units.
+#[derive(Clone)]
+pub struct Setup {
+    /// Cells along x, y, z; x is the fastest index: cell = i + nx (j + ny k).
+    pub extents: [usize; 3],
+    /// `faces[axis][0]` is the low face, `faces[axis][1]` the high one.
+    pub faces: [[Face; 2]; 3],
+    /// Per cell: 0 fluid, s > 0 the solid `solid_motion[s − 1]`. Empty: no solid cell.
+    pub solids: Vec<u8>,
+    /// Motion of each numbered solid.
+    pub solid_motion: Vec<SolidMotion>,
+    /// Per cell: index into `fluids`. Empty: all cells hold `fluids[0]`.
+    pub fluid_of_cell: Vec<u8>,
+    /// The constitutive laws, lattice units.
+    pub fluids: Vec<Law>,
+    /// How τ follows from the law.
+    pub yielding: YieldTreatment,
+    /// The collision operator and its parameters.
+    pub collision: CollisionChoice,
+    /// How walls treat the tangential velocity.
+    pub wall_rule: WallRule,
+    /// [K6] source in the third moments (experimental).
+    pub stress_source: bool,
+    /// Body force.
+    pub force: BodyForce,
+    /// Initial flow; `None` is rest at density 1.
+    pub initial: Option<InitialFlow>,
+    /// A run stops when a cell is faster than this (lattice units) or not finite.
+    pub speed_limit: f64,
+    /// Worker threads; results do not depend on it.
+    pub threads: usize,
+}
+
+impl Setup {
+    /// A fluid at rest in a fully periodic box, with the default scheme.
+    #[must_use]
+    pub fn periodic(extents: [usize; 3], law: Law) -> Self {
+        Self {
+            extents,
+            faces: [[Face::Periodic; 2]; 3],
+            solids: Vec::new(),
+            solid_motion: Vec::new(),
+            fluid_of_cell: Vec::new(),
+            fluids: vec![law],
+            yielding: YieldTreatment::Exact,
+            collision: CollisionChoice::default(),
+            wall_rule: WallRule::HalfWay,
+            stress_source: false,
+            force: BodyForce::Constant([0.0; 3]),
+            initial: None,
+            speed_limit: 0.4,
+            threads: 1,
+        }
+    }
+
+    /// A column of `n` cells between two no-slip walls normal to y (plane channel, height n).
+    #[must_use]
+    pub fn channel(n: usize, law: Law, force_x: f64) -> Self {
+        let mut setup = Self::periodic([1, n, 1], law);
+        setup.faces[1] = [Face::NoSlip; 2];
+        setup.force = BodyForce::Constant([force_x, 0.0, 0.0]);
+        setup
+    }
+
+    /// Number of cells in the box, fluid or solid.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.extents.iter().product()
+    }
+
+    /// Linear index of cell (i, j, k).
+    #[must_use]
+    pub fn index(&self, [i, j, k]: [usize; 3]) -> usize {
+        i + self.extents[0] * (j + self.extents[1] * k)
+    }
+
+    /// Cell (i, j, k) of a linear index.
+    #[must_use]
+    pub fn coordinates(&self, cell: usize) -> [usize; 3] {
+        let [nx, ny, _] = self.extents;
+        [cell % nx, (cell / nx) % ny, cell / (nx * ny)]
+    }
+
+    /// Whether a cell is solid.
+    #[must_use]
+    pub fn is_solid(&self, cell: usize) -> bool {
+        self.solids.get(cell).is_some_and(|&s| s != 0)
+    }
+
+    /// The law of the fluid in a cell.
+    #[must_use]
+    pub fn law(&self, cell: usize) -> Law {
+        self.fluids[self.fluid_of_cell.get(cell).map_or(0, |&f| usize::from(f))]
+    }
+}

@@ -1,0 +1,1 @@
+//! All claims, by topic.

@@ -1,0 +1,1 @@
+//! One analytic solution per file.

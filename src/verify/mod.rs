@@ -1,0 +1,4 @@
+//! Claims, ladders, records and exact solutions.
+pub mod claim;
+pub mod claims;
+pub mod exact;
