@@ -8,9 +8,10 @@
 
 mod amplification;
 mod search;
+pub mod table;
 
 pub use amplification::{Linearised, phases};
-pub use search::{Direction, Peak, Search, max_stable_speed_along, peak};
+pub use search::{CEILING, Direction, Limit, Peak, Search, max_stable_speed_along, peak};
 
 use crate::collision::{Collision, CollisionChoice};
 
@@ -72,6 +73,9 @@ pub struct StabilityLimit {
 
 /// The largest stable speed, least over the directions x, xy and xyz.
 ///
+/// The operators of [`table::OPERATORS`] are looked up; any other is analysed at this τ⁺, which takes
+/// about a second.
+///
 /// # Arguments
 /// `tau`: τ⁺ > ½; infinite stands for an unyielded cell.
 /// # Errors
@@ -81,10 +85,11 @@ pub struct StabilityLimit {
 /// # Verified by
 /// Claim `neumann-table`.
 pub fn max_stable_speed(collision: &CollisionChoice, tau: f64) -> Result<StabilityLimit, StabilityError> {
-    let mut speed = f64::INFINITY;
-    for direction in Direction::ALL {
-        speed = speed.min(max_stable_speed_along(collision, tau, direction, &Search::QUICK)?);
+    check_tau(tau)?;
+    if let Some(speed) = table::interpolated(collision, tau) {
+        return Ok(StabilityLimit { speed, exact: false });
     }
+    let speed = table::Row::compute(collision, tau, &Search::QUICK)?.least();
     Ok(StabilityLimit { speed, exact: true })
 }
 
