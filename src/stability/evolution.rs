@@ -21,8 +21,7 @@ impl Spectrum {
     /// Discrete Fourier transform of `populations` (x fastest) in a box of `cells`³.
     #[must_use]
     pub fn of(populations: &[[f64; Q]], cells: usize) -> Self {
-        let mut amplitudes: Vec<[c64; Q]> =
-            populations.iter().map(|h| h.map(|x| c64::new(x, 0.0))).collect();
+        let mut amplitudes: Vec<[c64; Q]> = populations.iter().map(|h| h.map(|x| c64::new(x, 0.0))).collect();
         for stride in [1, cells, cells * cells] {
             transform(&mut amplitudes, cells, stride);
         }

@@ -11,8 +11,8 @@ use crate::collision::{CollisionChoice, OddRate};
 
 /// τ⁺ of the table.
 pub const TAUS: [f64; 23] = [
-    0.5005, 0.501, 0.502, 0.505, 0.51, 0.52, 0.535, 0.55, 0.56, 0.58, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5,
-    1.8, 2.5, 5.0, 20.0, 100.0,
+    0.5005, 0.501, 0.502, 0.505, 0.51, 0.52, 0.535, 0.55, 0.56, 0.58, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.2,
+    1.5, 1.8, 2.5, 5.0, 20.0, 100.0,
 ];
 
 /// Limits of one operator at one τ⁺.
@@ -54,12 +54,13 @@ pub struct Column {
 }
 
 /// The operators of the table, with short names.
-pub const OPERATORS: [(&str, CollisionChoice); 5] = [
+pub const OPERATORS: [(&str, CollisionChoice); 6] = [
     ("BGK", CollisionChoice::Bgk),
     ("TRT, fixed 3/16", CollisionChoice::Trt(OddRate::fixed(3.0 / 16.0))),
     ("TRT", CollisionChoice::Trt(OddRate::STANDARD)),
     ("central moment", CollisionChoice::CentralMoment(OddRate::STANDARD)),
     ("regularised", CollisionChoice::Regularised),
+    ("central moment, fixed 3/16", CollisionChoice::CentralMoment(OddRate::fixed(3.0 / 16.0))),
 ];
 
 static TABLE: LazyLock<Vec<Column>> =
