@@ -162,7 +162,10 @@ mod tests {
     #[test]
     fn refuses_the_missing_the_ambiguous_and_the_misshapen() {
         assert!(matches!(find("no_such", &[]), Err(ReferenceError::NotUnique { found: 0, .. })));
-        assert!(matches!(find("shear_wave_nu_ratio", &[]), Err(ReferenceError::NotUnique { found: 144, .. })));
+        assert!(matches!(
+            find("shear_wave_nu_ratio", &[]),
+            Err(ReferenceError::NotUnique { found: 144, .. })
+        ));
         let record = find("poiseuille_bingham", &[]).unwrap();
         assert!(matches!(record.number(), Err(ReferenceError::Shape { .. })));
         assert!(matches!(record.field("no_such"), Err(ReferenceError::Shape { .. })));

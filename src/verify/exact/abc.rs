@@ -37,17 +37,14 @@ impl Abc {
         let [a, b, c] = self.amplitudes.map(|a| a * self.wave_number * libm::exp(-self.decay_rate() * t));
         let sin = x.map(|x| libm::sin(self.wave_number * x));
         let cos = x.map(|x| libm::cos(self.wave_number * x));
-        [
-            [0.0, -c * sin[1], a * cos[2]],
-            [b * cos[0], 0.0, -a * sin[2]],
-            [-b * sin[0], c * cos[1], 0.0],
-        ]
+        [[0.0, -c * sin[1], a * cos[2]], [b * cos[0], 0.0, -a * sin[2]], [-b * sin[0], c * cos[1], 0.0]]
     }
 
     /// p = ρ(⟨|u|²⟩ − |u|²)/2, with mean 0.
     pub fn pressure(&self, x: [f64; 3], t: f64) -> f64 {
         let u = self.velocity(x, t);
-        let mean: f64 = self.amplitudes.iter().map(|a| a * a).sum::<f64>() * libm::exp(-2.0 * self.decay_rate() * t);
+        let mean: f64 =
+            self.amplitudes.iter().map(|a| a * a).sum::<f64>() * libm::exp(-2.0 * self.decay_rate() * t);
         0.5 * self.density * (mean - (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]))
     }
 }

@@ -69,13 +69,21 @@ impl<C: FlowCurve> LayeredCouette<C> {
     /// `Argument` if there is no layer or a thickness is not positive, or U is not finite.
     pub fn new(layers: Vec<(C, f64)>, wall_speed: f64) -> Result<Self, ExactError> {
         if layers.is_empty() {
-            return Err(ExactError::Argument { what: "layers", value: 0.0, allowed: "at least one is needed" });
+            return Err(ExactError::Argument {
+                what: "layers",
+                value: 0.0,
+                allowed: "at least one is needed",
+            });
         }
         for (_, thickness) in &layers {
             ExactError::positive("thickness", *thickness)?;
         }
         if !wall_speed.is_finite() {
-            return Err(ExactError::Argument { what: "wall_speed", value: wall_speed, allowed: "must be finite" });
+            return Err(ExactError::Argument {
+                what: "wall_speed",
+                value: wall_speed,
+                allowed: "must be finite",
+            });
         }
         let stress = if wall_speed == 0.0 { 0.0 } else { shared_stress(&layers, wall_speed.abs()) };
         Ok(Self { layers, stress, sign: if wall_speed < 0.0 { -1.0 } else { 1.0 } })

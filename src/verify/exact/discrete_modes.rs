@@ -113,9 +113,8 @@ pub fn sound(relaxation: Relaxation, wavelength: f64) -> Result<(f64, f64), Exac
     check(relaxation, wavelength)?;
     let sector = Sector::new(&[(FLIP_Y, 1.0), (FLIP_Z, 1.0), (SWAP_YZ, 1.0)], relaxation, 0.0);
     let k = core::f64::consts::TAU / wavelength;
-    let factor = sector.follow([1.0, 0.0, 0.0], k, |k| {
-        polar(-relaxation.viscosity() * k * k, -k * libm::sqrt(1.0 / 3.0))
-    })?;
+    let factor = sector
+        .follow([1.0, 0.0, 0.0], k, |k| polar(-relaxation.viscosity() * k * k, -k * libm::sqrt(1.0 / 3.0)))?;
     let speed = -libm::atan2(factor.im, factor.re) / k;
     let decay = -0.5 * libm::log(factor.re * factor.re + factor.im * factor.im);
     Ok((speed, decay / (relaxation.viscosity() * k * k)))
@@ -204,16 +203,23 @@ impl Sector {
             let orbit = orbit(*c, reflections);
             seen.extend(orbit.iter().map(|(member, _)| *member));
             // A velocity that a reflection maps on itself with sign −1 has no place in the sector.
-            if orbit.iter().all(|(member, sign)| orbit.contains(&(*member, *sign)) && !orbit.contains(&(*member, -sign))) {
+            if orbit
+                .iter()
+                .all(|(member, sign)| orbit.contains(&(*member, *sign)) && !orbit.contains(&(*member, -sign)))
+            {
                 orbits.push(orbit);
             }
         }
-        let representatives: Vec<Velocity> = orbits.iter().filter_map(|o| o.first().map(|(c, _)| *c)).collect();
+        let representatives: Vec<Velocity> =
+            orbits.iter().filter_map(|o| o.first().map(|(c, _)| *c)).collect();
         let collision = representatives
             .iter()
             .map(|to| {
                 let from = |orbit: &Vec<(Velocity, f64)>| {
-                    orbit.iter().map(|(d, sign)| sign * collision(*to, *d, relaxation, mean_flow)).sum::<f64>()
+                    orbit
+                        .iter()
+                        .map(|(d, sign)| sign * collision(*to, *d, relaxation, mean_flow))
+                        .sum::<f64>()
                 };
                 orbits.iter().map(from).collect()
             })
@@ -231,7 +237,12 @@ impl Sector {
     }
 
     /// The eigenvalue that starts as `hydrodynamic` near k = 0, followed to `k` in small steps.
-    fn follow(&self, direction: [f64; 3], k: f64, hydrodynamic: impl Fn(f64) -> c64) -> Result<c64, ExactError> {
+    fn follow(
+        &self,
+        direction: [f64; 3],
+        k: f64,
+        hydrodynamic: impl Fn(f64) -> c64,
+    ) -> Result<c64, ExactError> {
         const STEPS: u32 = 400;
         let mut previous = c64::new(1.0, 0.0);
         let mut current = previous;
@@ -242,7 +253,9 @@ impl Sector {
             } else {
                 c64::new(2.0 * current.re - previous.re, 2.0 * current.im - previous.im)
             };
-            let distance = |z: &c64| (z.re - expected.re) * (z.re - expected.re) + (z.im - expected.im) * (z.im - expected.im);
+            let distance = |z: &c64| {
+                (z.re - expected.re) * (z.re - expected.re) + (z.im - expected.im) * (z.im - expected.im)
+            };
             let values = self.eigenvalues(direction.map(|d| d * here))?;
             let nearest = values.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
             previous = current;
@@ -299,7 +312,11 @@ mod tests {
             for wave in waves_of(entry) {
                 let ratio = shear_viscosity_ratio(*wave, relaxation_of(entry), n, 0.0).unwrap();
                 // The table's eight digits: half a unit of the last.
-                assert!((ratio / reference - 1.0).abs() < 0.5 * 1e-7, "{:?}: {ratio} {reference}", entry.inputs);
+                assert!(
+                    (ratio / reference - 1.0).abs() < 0.5 * 1e-7,
+                    "{:?}: {ratio} {reference}",
+                    entry.inputs
+                );
             }
             compared += 1;
         }
@@ -335,7 +352,8 @@ mod tests {
         for entry in all("galilean_shear_nu_ratio_k_par_U").unwrap() {
             let u = entry.input("U").unwrap();
             let relaxation = Relaxation::bgk(entry.input("tau").unwrap());
-            let ratio = shear_viscosity_ratio(Shear::Axis, relaxation, entry.input("wavelength").unwrap(), u).unwrap();
+            let ratio = shear_viscosity_ratio(Shear::Axis, relaxation, entry.input("wavelength").unwrap(), u)
+                .unwrap();
             assert!((ratio / entry.number().unwrap() - 1.0).abs() < entry.tolerance(), "{ratio}");
         }
     }

@@ -104,10 +104,17 @@ mod tests {
     #[test]
     fn reference_creep_of_a_clamped_bed() {
         let law = Trilinear::new(THESIS, 0.15, 150.0).unwrap();
-        let bed = |thickness| Film { law: law.clone(), thickness, density: 997.45, gravity: 9.81, slope: 16.0 * DEGREE };
+        let bed = |thickness| Film {
+            law: law.clone(),
+            thickness,
+            density: 997.45,
+            gravity: 9.81,
+            slope: 16.0 * DEGREE,
+        };
         let entry = find("film_creep_clamped_bed6mm_theta16", &[]).unwrap();
         close(bed(0.006).surface_velocity(), entry.field("us").unwrap(), entry.tolerance());
-        let ideal = Film { law: THESIS, thickness: 1.0, density: 997.45, gravity: 9.81, slope: 16.0 * DEGREE };
+        let ideal =
+            Film { law: THESIS, thickness: 1.0, density: 997.45, gravity: 9.81, slope: 16.0 * DEGREE };
         let entry = find("film_creep_clamped_hc_theta16", &[]).unwrap();
         let creep = bed(ideal.critical_thickness()).surface_velocity();
         close(creep, entry.field("us").unwrap(), entry.tolerance());

@@ -58,7 +58,8 @@ impl<C: FlowCurve> Pipe<C> {
         if self.force == 0.0 {
             return 0.0;
         }
-        8.0 * core::f64::consts::PI * self.law.moment(2, self.wall_stress()) / (self.force * self.force * self.force)
+        8.0 * core::f64::consts::PI * self.law.moment(2, self.wall_stress())
+            / (self.force * self.force * self.force)
     }
 
     /// Flow rate over the cross-section πR².
@@ -90,7 +91,8 @@ mod tests {
         close(newtonian.velocity(0.5), force * (radius * radius - 0.25) / (4.0 * 0.4), ROUNDING);
         for n in [0.1, 0.5, 2.0] {
             let law = Pipe { law: Law::PowerLaw { k: 0.7, n }, radius, force };
-            let expected = PI * n / (3.0 * n + 1.0) * libm::pow(force / 1.4, 1.0 / n) * libm::pow(radius, 3.0 + 1.0 / n);
+            let expected =
+                PI * n / (3.0 * n + 1.0) * libm::pow(force / 1.4, 1.0 / n) * libm::pow(radius, 3.0 + 1.0 / n);
             // The power 1/n multiplies the rounding of its base.
             close(law.flow_rate(), expected, ROUNDING / n);
         }
@@ -122,7 +124,8 @@ mod tests {
         let plug = [0.0, ideal.plug_radius(), 1.3];
         // The quadrature's 1e-13 per panel, and differences of primitives.
         close(ideal.flow_rate(), integral(&|r| ideal.velocity(r), &plug), 1e-12);
-        let mut ends: Vec<f64> = kinks.into_iter().chain([s_c, s_l].into_iter().filter(|s| *s < 1.3)).collect();
+        let mut ends: Vec<f64> =
+            kinks.into_iter().chain([s_c, s_l].into_iter().filter(|s| *s < 1.3)).collect();
         ends.sort_by(f64::total_cmp);
         close(clamped.flow_rate(), integral(&|r| clamped.velocity(r), &ends), 1e-11);
     }

@@ -55,10 +55,18 @@ impl Trilinear {
         ExactError::positive("mu_min", mu_min)?;
         ExactError::positive("mu_max", mu_max)?;
         if sigma0.is_nan() || sigma0 < 0.0 {
-            return Err(ExactError::Argument { what: "sigma0", value: sigma0, allowed: "must not be negative" });
+            return Err(ExactError::Argument {
+                what: "sigma0",
+                value: sigma0,
+                allowed: "must not be negative",
+            });
         }
         if mu_min > mu_max {
-            return Err(ExactError::Argument { what: "mu_min", value: mu_min, allowed: "must not exceed mu_max" });
+            return Err(ExactError::Argument {
+                what: "mu_min",
+                value: mu_min,
+                allowed: "must not exceed mu_max",
+            });
         }
         let branches = branches(sigma0, k, n, mu_min, mu_max);
         Ok(Self { law, sigma0, k, n, branches })
@@ -339,6 +347,8 @@ mod tests {
     fn refuses_bad_clamps() {
         assert!(Trilinear::new(HB, 1.0, 0.5).is_err());
         assert!(Trilinear::new(HB, 0.0, 0.5).is_err());
-        assert!(Trilinear::new(Law::Papanastasiou { sigma0: 1.0, k: 1.0, n: 1.0, m: 1.0 }, 0.1, 1.0).is_err());
+        assert!(
+            Trilinear::new(Law::Papanastasiou { sigma0: 1.0, k: 1.0, n: 1.0, m: 1.0 }, 0.1, 1.0).is_err()
+        );
     }
 }

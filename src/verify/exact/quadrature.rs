@@ -57,7 +57,10 @@ mod tests {
     #[test]
     fn exact_for_smooth_and_end_singular_integrands() {
         assert!((tanh_sinh(0.0, 1.0, libm::exp) / (libm::exp(1.0) - 1.0) - 1.0).abs() < TOLERANCE);
-        assert!((tanh_sinh(0.0, 2.0, |x| libm::pow(x, 0.1)) / (libm::pow(2.0, 1.1) / 1.1) - 1.0).abs() < TOLERANCE);
+        assert!(
+            (tanh_sinh(0.0, 2.0, |x| libm::pow(x, 0.1)) / (libm::pow(2.0, 1.1) / 1.1) - 1.0).abs()
+                < TOLERANCE
+        );
         assert!((tanh_sinh(0.0, 1.0, |x| -libm::log(x)) - 1.0).abs() < TOLERANCE);
         assert_eq!(tanh_sinh(1.0, 1.0, |x| x), 0.0);
     }

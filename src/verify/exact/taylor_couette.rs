@@ -71,7 +71,8 @@ mod tests {
         // The quadrature's own 1e-13.
         assert!((FLOW.pressure_over_density(1.8) - pressure).abs() < 1e-12);
         let h = 1e-4;
-        let difference = 1.8 * (FLOW.velocity(1.8 + h) / (1.8 + h) - FLOW.velocity(1.8 - h) / (1.8 - h)) / (2.0 * h);
+        let difference =
+            1.8 * (FLOW.velocity(1.8 + h) / (1.8 + h) - FLOW.velocity(1.8 - h) / (1.8 - h)) / (2.0 * h);
         // Truncation h²/6 of the third derivative, of order one.
         assert!((FLOW.shear_rate(1.8) - difference).abs() < 1e-8);
         let balance = 2.0 * core::f64::consts::PI * 1.8 * 1.8 * -FLOW.shear_rate(1.8);

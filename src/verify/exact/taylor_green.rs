@@ -143,7 +143,8 @@ pub(crate) fn navier_stokes_residual(
         divergence += (u(shift(a, h), t)[a] - u(shift(a, -h), t)[a]) / (2.0 * h);
         for b in 0..3 {
             let (plus, minus) = (u(shift(b, h), t)[a], u(shift(b, -h), t)[a]);
-            residual[a] += here[b] * (plus - minus) / (2.0 * h) - nu * (plus - 2.0 * here[a] + minus) / (h * h);
+            residual[a] +=
+                here[b] * (plus - minus) / (2.0 * h) - nu * (plus - 2.0 * here[a] + minus) / (h * h);
         }
     }
     (residual, divergence)
@@ -188,9 +189,8 @@ mod tests {
             y
         };
         let (mut laplacian, mut source) = (0.0, 0.0);
-        let gradient = |a: usize, b: usize| {
-            (flow.velocity(shift(b, h))[a] - flow.velocity(shift(b, -h))[a]) / (2.0 * h)
-        };
+        let gradient =
+            |a: usize, b: usize| (flow.velocity(shift(b, h))[a] - flow.velocity(shift(b, -h))[a]) / (2.0 * h);
         for a in 0..3 {
             laplacian +=
                 (flow.pressure(shift(a, h)) - 2.0 * flow.pressure(x) + flow.pressure(shift(a, -h))) / (h * h);

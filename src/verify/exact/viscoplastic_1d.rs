@@ -120,7 +120,8 @@ impl<C: FlowCurve> Flow1d<C> {
             *last = self.wall_speed;
         }
         // A moving wall shears sooner or later: its steady stress is a better first guess than none.
-        let steady = if self.wall_speed == 0.0 { 0.0 } else { self.law.stress(self.wall_speed.abs() / self.length) };
+        let steady =
+            if self.wall_speed == 0.0 { 0.0 } else { self.law.stress(self.wall_speed.abs() / self.length) };
         let guess = if self.wall_speed < 0.0 { -steady } else { steady };
         Ok(Profile { time: 0.0, length: self.length, velocity, stress: vec![guess; self.cells] })
     }
@@ -164,9 +165,8 @@ impl<C: FlowCurve> Flow1d<C> {
         Ok(Profile { time: end, length: self.length, velocity, stress })
     }
 
-    /// Profiles at the given increasing times. The steps between are equal and at most `largest_step`;
-    /// the first step from t = 0 on grows geometrically from `first_step` by at most a quarter per step
-    /// to resolve a sudden start.
+    /// Profiles at the given increasing times. Steps grow by a quarter each from `first_step`, which
+    /// resolves a sudden start, up to `largest_step`, and are shortened to end on the times asked for.
     ///
     /// # Errors
     /// As [`Flow1d::step`].
@@ -205,7 +205,13 @@ impl<C: FlowCurve> Flow1d<C> {
     ///
     /// # Errors
     /// `StillMoving` if that does not happen within `longest`, and as [`Flow1d::step`].
-    pub fn stopping_time(&self, from: &Profile, force: f64, dt: f64, longest: f64) -> Result<f64, ExactError> {
+    pub fn stopping_time(
+        &self,
+        from: &Profile,
+        force: f64,
+        dt: f64,
+        longest: f64,
+    ) -> Result<f64, ExactError> {
         let mut now = from.clone();
         let mut step = dt;
         while now.time - from.time < longest {
@@ -257,7 +263,13 @@ impl<C: FlowCurve> Flow1d<C> {
     }
 
     /// One implicit stage: velocities and stresses.
-    fn solve(&self, base: &[f64], delta: f64, force: f64, guess: &[f64]) -> Result<(Vec<f64>, Vec<f64>), ExactError> {
+    fn solve(
+        &self,
+        base: &[f64],
+        delta: f64,
+        force: f64,
+        guess: &[f64],
+    ) -> Result<(Vec<f64>, Vec<f64>), ExactError> {
         let stage = Stage { flow: self, base, delta, force, dy: self.length / self.cells as f64 };
         let stress = stage.solve(guess)?;
         Ok((self.velocity_of(&stress), stress))

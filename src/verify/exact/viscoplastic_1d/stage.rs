@@ -60,7 +60,11 @@ impl<C: FlowCurve> Stage<'_, C> {
                 break;
             }
         }
-        Err(ExactError::NotConverged { what: "the stresses of a time step", iterations: NEWTON_STEPS, residual: size })
+        Err(ExactError::NotConverged {
+            what: "the stresses of a time step",
+            iterations: NEWTON_STEPS,
+            residual: size,
+        })
     }
 
     /// The change of stress below which Newton's method may end once it no longer gains: 1e-10 of the
@@ -103,7 +107,8 @@ impl<C: FlowCurve> Stage<'_, C> {
     /// Σ Δy ∫R dσ + Σ_i (mass of node i)/(2δ) u_i² − U σ_last (+ 0 · σ_0 at a lower wall).
     fn energy(&self, stress: &[f64]) -> f64 {
         let u = self.velocity(stress);
-        let complementary: f64 = stress.iter().map(|s| self.flow.law.moment(0, s.abs())).sum::<f64>() * self.dy;
+        let complementary: f64 =
+            stress.iter().map(|s| self.flow.law.moment(0, s.abs())).sum::<f64>() * self.dy;
         let first = if self.flow.lower == LowerEnd::Symmetry { 0.5 * u[0] * u[0] } else { 0.0 };
         let inner: f64 = u[1..stress.len()].iter().map(|u| u * u).sum();
         let kinetic = 0.5 * self.flow.density * self.dy / self.delta * (first + inner);
