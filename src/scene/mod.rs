@@ -66,7 +66,8 @@ pub struct Scene {
 /// The file cannot be read, is not JSON, does not have the shape of a scene, or holds values that
 /// make no sense. The message names the file (without its folder) and the JSON path.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
-    let file = path.file_name().map_or_else(|| "scene".to_owned(), |name| name.to_string_lossy().into_owned());
+    let file =
+        path.file_name().map_or_else(|| "scene".to_owned(), |name| name.to_string_lossy().into_owned());
     let text = std::fs::read_to_string(path).map_err(|error| SceneError {
         file: file.clone(),
         path: String::new(),

@@ -20,7 +20,13 @@ pub(super) fn check(at: &Checker, domain: &Domain) -> Result<(), SceneError> {
         let a = axis.index();
         let size = domain.size_m[a];
         let path = format!("domain.size_m[{a}]");
-        at.positive(&path, size, "m", "it is an edge of the box", "one `spacing_m` along an axis without change")?;
+        at.positive(
+            &path,
+            size,
+            "m",
+            "it is an edge of the box",
+            "one `spacing_m` along an axis without change",
+        )?;
         let cells = size / spacing;
         let whole = cells.round();
         at.ensure(whole >= 1.0, &path, || SceneProblem::NoCell { size, spacing })?;

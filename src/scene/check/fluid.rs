@@ -30,8 +30,9 @@ pub(super) fn check_gravity(at: &Checker, gravity: &Gravity) -> Result<(), Scene
                 because: "from vertical to vertical",
                 way_out: "use `direction` for anything else",
             })?;
-            at.ensure(gravity.bed_normal != Some(Axis::X), "gravity.bed_normal", || {
-                SceneProblem::UnusedKey { key: "bed_normal", because: "x is the downhill axis; the bed is normal to y or z" }
+            at.ensure(gravity.bed_normal != Some(Axis::X), "gravity.bed_normal", || SceneProblem::UnusedKey {
+                key: "bed_normal",
+                because: "x is the downhill axis; the bed is normal to y or z",
             })
         }
         (direction, slope) => {
@@ -107,7 +108,13 @@ fn rheology(at: &Checker, path: &str, rheology: &Rheology) -> Result<(), SceneEr
             yield_stress("papanastasiou", yield_stress_pa)?;
             power("papanastasiou", consistency_pa_s_n, flow_index)?;
             let path = format!("{path}.papanastasiou.growth_s");
-            at.positive(&path, growth_s, "s", "the stress grows over it", "`herschel_bulkley` for a true yield stress")
+            at.positive(
+                &path,
+                growth_s,
+                "s",
+                "the stress grows over it",
+                "`herschel_bulkley` for a true yield stress",
+            )
         }
     }
 }

@@ -33,12 +33,7 @@ impl Checker<'_> {
         Err(SceneError { file: self.file.to_owned(), path: path.into(), problem })
     }
 
-    fn ensure(
-        &self,
-        ok: bool,
-        path: &str,
-        problem: impl FnOnce() -> SceneProblem,
-    ) -> Result<(), SceneError> {
+    fn ensure(&self, ok: bool, path: &str, problem: impl FnOnce() -> SceneProblem) -> Result<(), SceneError> {
         if ok { Ok(()) } else { self.fail(path, problem()) }
     }
 
@@ -68,8 +63,8 @@ impl Checker<'_> {
 
     /// A name that can be a column or part of a file name, and is not among `used`.
     fn name(&self, path: &str, name: &str, used: &mut Vec<String>) -> Result<(), SceneError> {
-        let good = !name.is_empty()
-            && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+        let good =
+            !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
         self.ensure(good, path, || SceneProblem::BadName { name: name.to_owned() })?;
         let fresh = !used.iter().any(|other| other == name);
         self.ensure(fresh, path, || SceneProblem::DuplicateName { name: name.to_owned() })?;

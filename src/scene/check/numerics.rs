@@ -62,11 +62,8 @@ fn time_step(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {
 fn collision(at: &Checker, collision: &Collision) -> Result<(), SceneError> {
     let path = "numerics.collision";
     let one_rate = matches!(collision.operator, Operator::Bgk | Operator::Regularised);
-    let given = [
-        ("magic", collision.magic),
-        ("floor", collision.floor),
-        ("lowered_below", collision.lowered_below),
-    ];
+    let given =
+        [("magic", collision.magic), ("floor", collision.floor), ("lowered_below", collision.lowered_below)];
     for (key, value) in given {
         let Some(value) = value else { continue };
         let path = format!("{path}.{key}");
@@ -100,7 +97,13 @@ fn clamp(at: &Checker, path: &str, limits: &ClampLimits) -> Result<(), SceneErro
         }
         ((None, None), (Some(low), Some(high))) => {
             let key = format!("{path}.viscosity_min_pa_s");
-            at.positive(&key, low, "Pa s", "τ − ½ = 3ν must be > 0 [L6]", "a tenth of the plastic viscosity")?;
+            at.positive(
+                &key,
+                low,
+                "Pa s",
+                "τ − ½ = 3ν must be > 0 [L6]",
+                "a tenth of the plastic viscosity",
+            )?;
             at.ensure(low < high, path, || SceneProblem::LimitsSwapped { low, high, unit: "Pa s" })
         }
         _ => {
