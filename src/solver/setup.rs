@@ -174,3 +174,30 @@ impl Setup {
         self.fluids[self.fluid_of_cell.get(cell).map_or(0, |&f| usize::from(f))]
     }
 }
+
+impl BodyForce {
+    /// Force per volume at a step, lattice units.
+    #[must_use]
+    pub fn at(&self, step: u64) -> [f64; 3] {
+        match *self {
+            Self::Constant(force) => force,
+            Self::Oscillating { mean, amplitude, frequency, phase } => {
+                let swing = libm::cos(frequency * step as f64 + phase);
+                std::array::from_fn(|a| mean[a] + amplitude[a] * swing)
+            }
+            Self::Stepped { before, after, at } => {
+                if step < at {
+                    before
+                } else {
+                    after
+                }
+            }
+        }
+    }
+
+    /// Whether the force never changes.
+    #[must_use]
+    pub const fn is_constant(&self) -> bool {
+        matches!(self, Self::Constant(_))
+    }
+}
