@@ -3,24 +3,27 @@
 use crate::lane::Lane;
 use crate::lattice::CS2;
 
-/// Slip of a half-way wall under a tangential force: (f_t/ρ)(2(τ⁻ − ½) − 3/(8(τ⁺ − ½))).
+/// Slip of a half-way wall under a tangential force: f_t (2(τ⁻ − ½)/ρ − 1/(8 dσ/dγ̇)).
+///
+/// The first term is the jump that the odd moments make at the wall, the second the curvature of the
+/// profile over the half cell, |u″|/8 = f_t/(8 dσ/dγ̇). For a Newtonian fluid dσ/dγ̇ = ρν and this is
+/// the design's (f_t/ρ)(2(τ⁻ − ½) − 3/(8(τ⁺ − ½))); with a yield stress the apparent viscosity would
+/// put half the curvature term in the wrong place.
 ///
 /// # Arguments
-/// `tangential`: tangential part of F − ∇p. `omega`, `odd_omega`: the cell's rates; ω⁺ = 0
-/// (rigid) makes the second term vanish.
+/// `tangential`: tangential part of F − ∇p. `tangent_fluidity`: 1/(dσ/dγ̇) of the cell, 0 if rigid.
+/// `odd_omega`: the cell's ω⁻.
 /// # Returns
 /// The velocity by which the wall appears to move; subtract it from u_w in \[B1\].
 /// # Source
 /// Design \[B3\]; for BGK it is G(16Λ − 3)/(24ρν), REFERENCES §1.
 /// # Verified by
-/// Claims `poiseuille-newtonian-b3`, `poiseuille-newtonian-bgk-slip`.
+/// Claims `poiseuille-newtonian-b3`, `poiseuille-newtonian-bgk-slip`, `poiseuille-wall-node-error`.
 #[inline(always)]
-pub fn wall_slip<L: Lane>(tangential: &[L; 3], rho: L, omega: L, odd_omega: L) -> [L; 3] {
-    let half = L::splat(0.5);
-    let odd = L::splat(2.0) * (L::one() / odd_omega - half);
-    // 1/(τ⁺ − ½) = 2ω/(2 − ω): finite at ω = 0.
-    let even = L::splat(3.0 / 8.0) * (omega / (L::one() - half * omega));
-    tangential.map(|f| (f / rho) * (odd - even))
+pub fn wall_slip<L: Lane>(tangential: &[L; 3], rho: L, tangent_fluidity: L, odd_omega: L) -> [L; 3] {
+    let odd = L::splat(2.0) * (L::one() / odd_omega - L::splat(0.5)) / rho;
+    let curvature = L::splat(1.0 / 8.0) * tangent_fluidity;
+    tangential.map(|f| f * (odd - curvature))
 }
 
 /// v − (v·n) n

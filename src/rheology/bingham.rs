@@ -30,4 +30,9 @@ impl Rheology for Bingham {
         let gamma_dot = excess / (L::splat(self.mu) + rho * L::splat(1.0 / 6.0));
         L::select(L::zero().less(excess), gamma_dot, L::zero())
     }
+
+    #[inline(always)]
+    fn tangent_viscosity<L: Lane>(&self, _gamma_dot: L) -> L {
+        L::splat(self.mu)
+    }
 }

@@ -43,6 +43,11 @@ impl Rheology for HerschelBulkley {
         let gamma_dot = two_power_root(self.k, self.ln_k, self.n, rho * L::splat(1.0 / 6.0), safe);
         L::select(yielded, gamma_dot, L::zero())
     }
+
+    #[inline(always)]
+    fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
+        L::splat(self.n * self.k) * (L::splat(self.n - 1.0) * gamma_dot.ln()).exp()
+    }
 }
 
 /// Rounds of Newton's method after which even the hardest case has converged: quadratic from a

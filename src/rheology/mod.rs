@@ -32,6 +32,10 @@ pub trait Rheology: Copy + Send + Sync + 'static {
     /// The one γ̇ ≥ 0 with q = σ(γ̇) + (ρ/6) γ̇, zero when q does not exceed the yield stress \[Y3\].
     fn shear_rate<L: Lane>(&self, rho: L, q: L) -> L;
 
+    /// Tangent dynamic viscosity dσ/dγ̇ of the flowing fluid: how much the shear rate changes with the
+    /// stress, hence with the distance from a wall.
+    fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L;
+
     /// Apparent dynamic viscosity σ(γ̇)/γ̇; infinite or undefined at γ̇ = 0 for yield-stress laws.
     fn viscosity<L: Lane>(&self, gamma_dot: L) -> L {
         self.stress(gamma_dot) / gamma_dot
@@ -135,6 +139,10 @@ impl Rheology for Law {
     #[inline]
     fn shear_rate<L: Lane>(&self, rho: L, q: L) -> L {
         for_each_law!(self, law => law.shear_rate(rho, q))
+    }
+    #[inline]
+    fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
+        for_each_law!(self, law => law.tangent_viscosity(gamma_dot))
     }
     #[inline]
     fn viscosity<L: Lane>(&self, gamma_dot: L) -> L {

@@ -42,4 +42,9 @@ impl Rheology for Newtonian {
     fn viscosity<L: Lane>(&self, _gamma_dot: L) -> L {
         L::splat(self.mu)
     }
+
+    #[inline(always)]
+    fn tangent_viscosity<L: Lane>(&self, _gamma_dot: L) -> L {
+        L::splat(self.mu)
+    }
 }

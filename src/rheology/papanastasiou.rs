@@ -82,4 +82,10 @@ impl Rheology for Papanastasiou {
         }
         L::select(flowing, x.exp(), L::zero())
     }
+
+    #[inline(always)]
+    fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
+        let plastic = L::splat(self.sigma0 * self.m) * (-(L::splat(self.m) * gamma_dot)).exp();
+        plastic + L::splat(self.n * self.k) * (L::splat(self.n - 1.0) * gamma_dot.ln()).exp()
+    }
 }

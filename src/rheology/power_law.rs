@@ -32,4 +32,9 @@ impl Rheology for PowerLaw {
     fn shear_rate<L: Lane>(&self, rho: L, q: L) -> L {
         self.0.shear_rate(rho, q)
     }
+
+    #[inline(always)]
+    fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
+        self.0.tangent_viscosity(gamma_dot)
+    }
 }

@@ -73,6 +73,44 @@ pub fn omega<L: Lane, R: Rheology>(law: &R, treatment: YieldTreatment, rho: L, q
     }
 }
 
+/// 1/(dσ/dγ̇) of a cell under the chosen treatment: how fast the shear rate changes with the stress.
+///
+/// Zero in a rigid cell; where a clamp acts the law is Newtonian and tangent and apparent viscosity
+/// are the same.
+///
+/// # Source
+/// Design \[B3\]; the apparent viscosity is right there only for a Newtonian fluid.
+/// # Verified by
+/// Claim `poiseuille-wall-node-error`.
+#[inline(always)]
+pub fn tangent_fluidity<L: Lane, R: Rheology>(
+    law: &R,
+    treatment: YieldTreatment,
+    rho: L,
+    omega: L,
+    q: L,
+) -> L {
+    let half = L::splat(0.5);
+    // 1/(ρν) = 3/(ρ(τ − ½)) = 3ω/(ρ(1 − ω/2)), finite at ω = 0.
+    let apparent = L::splat(3.0) * omega / (rho * (L::one() - half * omega));
+    if law.constant_tau().is_some() {
+        return apparent;
+    }
+    let gamma_dot = shear_rate_of_omega(rho, omega, q);
+    let flowing = L::zero().less(gamma_dot);
+    let safe = L::select(flowing, gamma_dot, L::one());
+    let tangent = L::select(flowing, L::one() / law.tangent_viscosity(safe), L::zero());
+    match treatment {
+        YieldTreatment::Exact => tangent,
+        YieldTreatment::ImplicitClamped { tau_min, tau_max }
+        | YieldTreatment::LaggedClamped { tau_min, tau_max } => {
+            let slow = omega.less_equal(L::splat(1.0 / tau_max));
+            let fast = L::splat(1.0 / tau_min).less_equal(omega);
+            L::select(slow, apparent, L::select(fast, apparent, tangent))
+        }
+    }
+}
+
 /// x limited to \[low, high\]; NaN becomes `high`.
 #[inline(always)]
 fn clamp<L: Lane>(x: L, low: f64, high: f64) -> L {

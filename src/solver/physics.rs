@@ -47,10 +47,13 @@ pub trait Physics: Clone + Send + Sync + 'static {
         bounce_back::bounce_back(out, i, rho, u_wall)
     }
 
+    /// 1/(dσ/dγ̇) of a cell, zero where rigid \[B3\].
+    fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L;
+
     /// Apparent slip of the wall \[B3\].
     #[inline(always)]
-    fn wall_slip<L: Lane>(&self, tangential: &[L; 3], rho: L, omega: L) -> [L; 3] {
-        wall_slip::wall_slip(tangential, rho, omega, self.odd_omega(omega))
+    fn wall_slip<L: Lane>(&self, tangential: &[L; 3], rho: L, fluidity: L, odd_omega: L) -> [L; 3] {
+        wall_slip::wall_slip(tangential, rho, fluidity, odd_omega)
     }
 }
 
@@ -76,6 +79,11 @@ impl<R: Rheology, C: Collision> Physics for Standard<R, C> {
     #[inline(always)]
     fn omega<L: Lane>(&self, fluid: u8, rho: L, q: L, previous: L) -> L {
         relaxation::omega(&self.laws[usize::from(fluid)], self.treatment, rho, q, previous)
+    }
+
+    #[inline(always)]
+    fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L {
+        relaxation::tangent_fluidity(&self.laws[usize::from(fluid)], self.treatment, rho, omega, q)
     }
 
     #[inline(always)]

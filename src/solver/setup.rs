@@ -200,4 +200,15 @@ impl BodyForce {
     pub const fn is_constant(&self) -> bool {
         matches!(self, Self::Constant(_))
     }
+
+    /// Largest magnitude the force reaches, lattice units.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        let norm = |f: [f64; 3]| ((f[0] * f[0] + f[1] * f[1]) + f[2] * f[2]).sqrt();
+        match *self {
+            Self::Constant(force) => norm(force),
+            Self::Oscillating { mean, amplitude, .. } => norm(mean) + norm(amplitude),
+            Self::Stepped { before, after, .. } => norm(before).max(norm(after)),
+        }
+    }
 }

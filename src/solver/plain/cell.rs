@@ -55,9 +55,18 @@ pub fn residual_force(f: &[Cell], links: &Links, cell: usize, force: &[f64; 3]) 
     })
 }
 
-/// Wall slip of a boundary cell \[B3\].
-pub fn slip<P: Physics>(physics: &P, record: &BoundaryCell, state: &State, residual: &[f64; 3]) -> [f64; 3] {
-    physics.wall_slip(&tangential(residual, &record.normal), state.m.rho, state.omega)
+/// Wall slip of a boundary cell holding fluid number `fluid` \[B3\].
+pub fn slip<P: Physics>(
+    physics: &P,
+    record: &BoundaryCell,
+    state: &State,
+    residual: &[f64; 3],
+    fluid: u8,
+) -> [f64; 3] {
+    let q = physics.stress_magnitude(&state.m);
+    let fluidity = physics.tangent_fluidity(fluid, state.m.rho, state.omega, q);
+    let along = tangential(residual, &record.normal);
+    physics.wall_slip(&along, state.m.rho, fluidity, physics.odd_omega(state.omega))
 }
 
 /// Adds the source of \[K6\] to post-collision populations.

@@ -11,7 +11,7 @@ use crate::solver::fingerprint::{Fingerprint, Hasher};
 use crate::solver::initial;
 use crate::solver::physics::Physics;
 use crate::solver::run::{Fields, Run, StartError, Stopped, Totals};
-use crate::solver::setup::{BodyForce, FlowPoint, Setup, WallRule, YieldTreatment};
+use crate::solver::setup::{FlowPoint, Setup, WallRule, YieldTreatment};
 
 /// Cells per chunk of work: enough to hide the hand-over, few enough to balance.
 const CHUNK: usize = 4096;
@@ -98,7 +98,10 @@ impl<P: Physics> PlainRun<P> {
             if record.touches_wall {
                 let at = record.cell as usize;
                 let residual = cell::residual_force(&self.f, &self.links, at, force);
-                self.slips[slot] = cell::slip(&self.physics, record, &self.state(at, force), &residual);
+                self.slips[slot] = {
+                    let fluid = self.setup.fluid_of_cell.get(at).copied().unwrap_or(0);
+                    cell::slip(&self.physics, record, &self.state(at, force), &residual, fluid)
+                };
             }
         }
     }
@@ -314,18 +317,5 @@ impl<P: Physics> Run for PlainRun<P> {
         let slips = self.slips.len() * size_of::<[f64; 3]>();
         let marks = self.setup.solids.len() + self.setup.fluid_of_cell.len();
         (cells + lag + slips + marks) as u64 + self.links.bytes()
-    }
-}
-
-impl BodyForce {
-    /// Largest magnitude the force reaches, lattice units.
-    #[must_use]
-    pub fn largest(&self) -> f64 {
-        let norm = |f: [f64; 3]| ((f[0] * f[0] + f[1] * f[1]) + f[2] * f[2]).sqrt();
-        match *self {
-            Self::Constant(force) => norm(force),
-            Self::Oscillating { mean, amplitude, .. } => norm(mean) + norm(amplitude),
-            Self::Stepped { before, after, .. } => norm(before).max(norm(after)),
-        }
     }
 }
