@@ -24,7 +24,7 @@ pub enum PlanProblem {
     )]
     OutOfMemory { cells: u64, needed_gib: f64, available_gib: f64 },
     /// Too fast.
-    #[error("found Mach number {mach:.3}: {speed} m/s at a time step of {dt} s\n  allowed: at most {limit}; the equilibrium is of second order in Ma [L3]\n  way out: a time step of at most {dt_max:.3e} s{}", or_leave(*.given))]
+    #[error("found Mach number {mach:.3}: {speed:.4e} m/s at a time step of {dt:.3e} s\n  allowed: at most {limit}; the equilibrium is of second order in Ma [L3]\n  way out: a time step of at most {dt_max:.3e} s{}", or_leave(*.given))]
     MachTooHigh { mach: f64, speed: f64, dt: f64, limit: f64, dt_max: f64, given: bool },
     /// τ too near ½.
     #[error(

@@ -111,7 +111,7 @@ pub enum SceneProblem {
     #[error("found [0, 0, 0]\n  allowed: any vector but this one; it has no direction\n  way out: {way_out}")]
     ZeroVector { way_out: &'static str },
     /// Exactly one of several keys is wanted.
-    #[error("found {}\n  allowed: {rule} of {}: {because}\n  way out: {}", found_keys(.found), list_static(.of), if .found.is_empty() { "add one of them" } else { "keep one of them" })]
+    #[error("found {}\n  allowed: {rule} of {}: {because}\n  way out: {}", found_keys(.found), list_static(.of), complete(.found, .rule))]
     KeyCount {
         found: Vec<&'static str>,
         of: &'static [&'static str],
@@ -201,6 +201,16 @@ fn list(names: &[String]) -> String {
 
 fn list_static(names: &[&str]) -> String {
     names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+fn complete(found: &[&str], rule: &str) -> &'static str {
+    if rule.contains("pair") {
+        "give the least and the largest of one kind, and nothing else"
+    } else if found.is_empty() {
+        "add one of them"
+    } else {
+        "keep one of them"
+    }
 }
 
 fn found_keys(names: &[&str]) -> String {

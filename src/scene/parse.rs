@@ -7,6 +7,14 @@ use super::{Scene, SceneError, SceneProblem};
 
 /// Parses without checking values.
 pub(super) fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
+    if text.trim_start().starts_with('[') {
+        // serde would read the keys of a scene from an array, in order.
+        let problem = SceneProblem::WrongType {
+            found: "an array".to_owned(),
+            expected: "an object with keys".to_owned(),
+        };
+        return Err(SceneError { file: file.to_owned(), path: String::new(), problem });
+    }
     let mut reader = serde_json::Deserializer::from_str(text);
     let located = |path: String, problem| SceneError { file: file.to_owned(), path, problem };
     let scene: Scene = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
@@ -14,6 +22,11 @@ pub(super) fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
         let inner = error.into_inner();
         match inner.classify() {
             Category::Data => located(tidy(&path), shape_problem(&message(&inner))),
+            // serde_json calls a number in place of a choice a mistake of syntax.
+            _ if serde_json::from_str::<serde::de::IgnoredAny>(text).is_ok() => {
+                let found = "a value of another type".to_owned();
+                located(tidy(&path), SceneProblem::WrongType { found, expected: in_plain_words("enum ") })
+            }
             _ => located(tidy(&path), syntax_problem(text, &inner)),
         }
     })?;
