@@ -22,17 +22,17 @@ pub fn curvature_velocity<L: Lane>(tangential: &[L; 3], tangent_fluidity: L) -> 
     tangential.map(|f| f * (L::splat(1.0 / 8.0) * tangent_fluidity))
 }
 
-/// c_i = (2 − ω⁻) d_i for every link that hits the wall, less its weighted mean; zero elsewhere.
+/// What a steady half-way link returns too much: (2 − ω⁻) d_i + s_i, less its weighted mean over the
+/// links that hit the wall; zero on the other links.
 ///
-/// A steady half-way link returns f_i* less (2 − ω⁻) d_i too much, d the odd departure
-/// ([`crate::collision::Collision::odd_departure`]): for a lattice-aligned wall this sum over the
-/// links is the slip 2(τ⁻ − ½) f_t/ρ of the design, and it is the creep 2θF/ρ of a rigid cell. Taken
-/// link by link it holds for walls of any orientation, moving walls and unsteady flow, and needs no
-/// wall normal and no pressure gradient. The mean is removed so that no mass passes the wall.
+/// d is the odd departure ([`crate::collision::Collision::odd_departure`]), s a source added after
+/// collision \[K6\]. For a lattice-aligned wall the sum over the links is the slip 2(τ⁻ − ½) f_t/ρ of
+/// the design, and the creep 2θF/ρ of a rigid cell. Taken link by link it holds for walls of any
+/// orientation, moving walls and unsteady flow, and needs no wall normal and no pressure gradient. The
+/// mean is removed so that no mass passes the wall.
 ///
 /// # Arguments
-/// `departure`: odd departure, by direction. `odd_omega`: ω⁻. `is_wall(i)`: whether the link along c_i
-/// hits the wall.
+/// `excess`: (2 − ω⁻) d + s, by direction. `is_wall(i)`: whether the link along c_i hits the wall.
 /// # Returns
 /// What to subtract from the population that leaves along c_i before it comes back \[B1\].
 /// # Source
@@ -40,19 +40,16 @@ pub fn curvature_velocity<L: Lane>(tangential: &[L; 3], tangent_fluidity: L) -> 
 /// # Verified by
 /// Claims `poiseuille-newtonian-b3`, `resting-layer-creep`.
 #[inline(always)]
-pub fn odd_correction<L: Lane>(departure: &[L; Q], odd_omega: L, is_wall: impl Fn(usize) -> bool) -> [L; Q] {
-    let keep = L::splat(2.0) - odd_omega;
+pub fn link_correction<L: Lane>(excess: &[L; Q], is_wall: impl Fn(usize) -> bool) -> [L; Q] {
     let (mut sum, mut weight) = (L::zero(), 0.0);
     for i in 1..Q {
         if is_wall(i) {
-            sum = sum + departure[i];
+            sum = sum + excess[i];
             weight += W[i];
         }
     }
     let mean = if weight > 0.0 { sum * L::splat(1.0 / weight) } else { sum };
-    std::array::from_fn(|i| {
-        if i > 0 && is_wall(i) { keep * (departure[i] - L::splat(W[i]) * mean) } else { L::zero() }
-    })
+    std::array::from_fn(|i| if i > 0 && is_wall(i) { excess[i] - L::splat(W[i]) * mean } else { L::zero() })
 }
 
 /// v − (v·n) n

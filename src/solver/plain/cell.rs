@@ -1,7 +1,7 @@
 //! What one cell does in one step. Everything here reads the previous array only.
 
 use crate::boundary::links::{BoundaryCell, CellKind, Links, Source};
-use crate::boundary::wall_slip::{odd_correction, pressure_slope, stress_source, tangential};
+use crate::boundary::wall_slip::{link_correction, pressure_slope, stress_source, tangential};
 use crate::lattice::moments::{Moments, add_third, density_excess, deviator};
 use crate::lattice::{C, Q, opposite};
 use crate::solver::physics::Physics;
@@ -67,17 +67,16 @@ pub fn wall_correction<P: Physics>(
     sourced: bool,
 ) -> Cell {
     let is_wall = |i: usize| matches!(record.sources[opposite(i)], Source::Wall(_));
-    let mut departure = physics.odd_departure(h, &state.m);
+    let mut excess = [0.0; Q];
     if sourced {
-        // The source is part of what the link would return too much.
-        let share = 1.0 / (2.0 - physics.odd_omega(state.omega));
-        let mut source = [0.0; Q];
-        add_stress_source(physics, &mut source, state, residual);
-        for i in 1..Q {
-            departure[i] += share * source[i];
-        }
+        add_stress_source(physics, &mut excess, state, residual);
     }
-    let mut correction = odd_correction(&departure, physics.odd_omega(state.omega), is_wall);
+    let keep = 2.0 - physics.odd_omega(state.omega);
+    let departure = physics.odd_departure(h, &state.m);
+    for i in 1..Q {
+        excess[i] += keep * departure[i];
+    }
+    let mut correction = link_correction(&excess, is_wall);
     let q = physics.stress_magnitude(&state.m);
     let fluidity = physics.tangent_fluidity(fluid, state.m.rho, state.omega, q);
     let curved = physics.curvature_velocity(&tangential(residual, &record.normal), fluidity);
