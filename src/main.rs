@@ -112,7 +112,7 @@ enum Failure {
 impl Failure {
     fn code(&self) -> u8 {
         match self {
-            Self::Scene(SceneError { problem: SceneProblem::Unreadable { .. }, .. }) => IO,
+            Self::Scene(error) if matches!(*error.problem, SceneProblem::Unreadable { .. }) => IO,
             Self::Scene(_) | Self::Plan(_) => BAD_INPUT,
             Self::Run(RunError::Start(_)) => BAD_INPUT,
             Self::Run(RunError::Stopped(_)) => STOPPED,

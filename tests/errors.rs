@@ -80,7 +80,7 @@ fn refuses_what_does_not_fit_into_memory() {
     // 32³ cells of at most 414 bytes are 13.6 MB.
     assert!(Plan::with_memory(&scene, Some(14_000_000)).is_ok());
     let error = Plan::with_memory(&scene, Some(13_000_000)).expect_err("too little memory");
-    assert!(matches!(error.problem, PlanProblem::OutOfMemory { cells: 32_768, .. }), "{error}");
+    assert!(matches!(*error.problem, PlanProblem::OutOfMemory { cells: 32_768, .. }), "{error}");
     assert_eq!(error.path, "domain");
     snapshot("out_of_memory", &error);
 }
@@ -88,7 +88,7 @@ fn refuses_what_does_not_fit_into_memory() {
 #[test]
 fn missing_file_is_an_io_error() {
     let error = scene::load(Path::new("no/such/scene.json")).expect_err("there is no such file");
-    assert_eq!(error.problem, SceneProblem::Unreadable { kind: std::io::ErrorKind::NotFound });
+    assert_eq!(*error.problem, SceneProblem::Unreadable { kind: std::io::ErrorKind::NotFound });
     snapshot("missing_file", &error);
     let output = Command::new(env!("CARGO_BIN_EXE_lahar"))
         .args(["plan", "no/such/scene.json"])

@@ -52,7 +52,7 @@ impl Plan {
     /// # Errors
     /// As [`Plan::new`].
     pub fn with_memory(scene: &Scene, available: Option<u64>) -> Result<Self, PlanError> {
-        let at = |path: &str, problem| PlanError { file: scene.file.clone(), path: path.to_owned(), problem };
+        let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
         checks::memory(scene, available).map_err(|problem| at("domain", problem))?;
         checks::shapes(scene).map_err(|(path, problem)| at(&path, problem))?;
         let cells = cells::fill(scene);

@@ -73,7 +73,7 @@ pub struct Numbers {
     pub stable_speed: Option<f64>,
     /// It over the expected speed.
     pub stability_margin: Option<f64>,
-    /// Speed at which an unyielded solid held by walls slips, m/s: 2θ f Δt/ρ [K3].
+    /// Speed at which an unyielded solid held by walls slips, m/s: 2θ f Δt/ρ \[K3\].
     pub plug_slip_m_per_s: f64,
     /// The same over the whole run, m.
     pub plug_slip_m: f64,

@@ -144,7 +144,7 @@ pub fn choose(scene: &Scene, scales: &Scales) -> Result<(f64, StepRule), PlanPro
     Ok(best)
 }
 
-/// [F7]: the largest Δt with 3 f H Δt²/(ρ Δx²) ≤ 0.02 along every walled axis.
+/// \[F7\]: the largest Δt with 3 f H Δt²/(ρ Δx²) ≤ 0.02 along every walled axis.
 fn compression_step(scene: &Scene) -> f64 {
     let dx = scene.domain.spacing_m;
     let mut least = f64::INFINITY;

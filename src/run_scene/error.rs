@@ -19,7 +19,7 @@ pub enum RunError {
     Start(StartError),
     /// A guard stopped the run.
     #[error("{0}")]
-    Stopped(StopReport),
+    Stopped(Box<StopReport>),
     /// A file could not be written.
     #[error(transparent)]
     Output(OutputError),

@@ -132,7 +132,7 @@ impl Driver<'_> {
                 writer.finish_series()?;
                 let fields = run.fields();
                 self.summary(run, &fields, writer, &finished, Some(report.to_string()))?;
-                return Err(RunError::Stopped(report));
+                return Err(RunError::Stopped(Box::new(report)));
             }
         }
         Ok(())

@@ -9,8 +9,15 @@ pub struct Located<P> {
     pub file: String,
     /// JSON path such as `fluid.rheology.bingham.yield_stress_pa`; empty for the file as a whole.
     pub path: String,
-    /// What is wrong.
-    pub problem: P,
+    /// What is wrong; boxed, so that results stay small.
+    pub problem: Box<P>,
+}
+
+impl<P> Located<P> {
+    /// A problem at a place.
+    pub fn new(file: &str, path: impl Into<String>, problem: P) -> Self {
+        Self { file: file.to_owned(), path: path.into(), problem: Box::new(problem) }
+    }
 }
 
 impl<P: fmt::Display> fmt::Display for Located<P> {

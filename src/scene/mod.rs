@@ -68,11 +68,8 @@ pub struct Scene {
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
     let file =
         path.file_name().map_or_else(|| "scene".to_owned(), |name| name.to_string_lossy().into_owned());
-    let text = std::fs::read_to_string(path).map_err(|error| SceneError {
-        file: file.clone(),
-        path: String::new(),
-        problem: SceneProblem::Unreadable { kind: error.kind() },
-    })?;
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| SceneError::new(&file, "", SceneProblem::Unreadable { kind: error.kind() }))?;
     from_json(&text, &file)
 }
 

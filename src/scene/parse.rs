@@ -13,17 +13,17 @@ pub(super) fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
             found: "an array".to_owned(),
             expected: "an object with keys".to_owned(),
         };
-        return Err(SceneError { file: file.to_owned(), path: String::new(), problem });
+        return Err(SceneError::new(file, "", problem));
     }
     let mut reader = serde_json::Deserializer::from_str(text);
-    let located = |path: String, problem| SceneError { file: file.to_owned(), path, problem };
+    let located = |path: String, problem| SceneError::new(file, path, problem);
     let scene: Scene = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
         let path = error.path().to_string();
         let inner = error.into_inner();
         match inner.classify() {
             Category::Data => located(tidy(&path), shape_problem(&message(&inner))),
             // serde_json calls a number in place of a choice a mistake of syntax.
-            _ if serde_json::from_str::<serde::de::IgnoredAny>(text).is_ok() => {
+            _ if message(&inner) == "expected value" && is_json(text) => {
                 let found = "a value of another type".to_owned();
                 located(tidy(&path), SceneProblem::WrongType { found, expected: in_plain_words("enum ") })
             }
@@ -32,6 +32,10 @@ pub(super) fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
     })?;
     reader.end().map_err(|error| located(String::new(), syntax_problem(text, &error)))?;
     Ok(scene)
+}
+
+fn is_json(text: &str) -> bool {
+    serde_json::from_str::<serde::de::IgnoredAny>(text).is_ok()
 }
 
 /// The root is an empty path; a trailing `?` marks a place that the parser never reached.
@@ -66,12 +70,10 @@ fn not_a_number_at(text: &str, line: usize, column: usize) -> Option<&'static st
     let found = text.lines().nth(line.checked_sub(1)?)?;
     // The parser stops at most one sign and one letter into the word.
     let starts = column.saturating_sub(3)..=column;
-    for token in ["-Infinity", "Infinity", "NaN", "nan", "inf"] {
-        if starts.clone().any(|start| found.get(start..).is_some_and(|rest| rest.starts_with(token))) {
-            return Some(token);
-        }
-    }
-    None
+    let begins = |token: &&str| {
+        starts.clone().any(|start| found.get(start..).is_some_and(|rest| rest.starts_with(*token)))
+    };
+    ["-Infinity", "Infinity", "NaN", "nan", "inf"].into_iter().find(begins)
 }
 
 /// Reads serde's fixed sentences.

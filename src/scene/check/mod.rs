@@ -30,7 +30,7 @@ struct Checker<'a> {
 
 impl Checker<'_> {
     fn fail(&self, path: impl Into<String>, problem: SceneProblem) -> Result<(), SceneError> {
-        Err(SceneError { file: self.file.to_owned(), path: path.into(), problem })
+        Err(SceneError::new(self.file, path, problem))
     }
 
     fn ensure(&self, ok: bool, path: &str, problem: impl FnOnce() -> SceneProblem) -> Result<(), SceneError> {
