@@ -7,10 +7,12 @@
 //! pass unnoticed in a short run.
 
 mod amplification;
+mod evolution;
 mod search;
 pub mod table;
 
 pub use amplification::{Linearised, phases};
+pub use evolution::Spectrum;
 pub use search::{CEILING, Direction, Limit, Peak, Search, max_stable_speed_along, peak};
 
 use crate::collision::{Collision, CollisionChoice};
