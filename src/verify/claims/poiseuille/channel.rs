@@ -228,7 +228,7 @@ impl FlowCurve for Curve {
 /// u_j = Σ_{i<j} γ̇_i + ½γ̇_j + 2G(τ⁻_j − ½) + u_w,
 ///
 /// with γ̇_i the law at the stress of the cell's centre and u_w minus the slip where \[B3\] is used.
-/// Terms of order Mach² are left out: BGK and TRT have none, the central-moment operator has.
+/// Terms of order Mach² are left out: only BGK and TRT with a constant viscosity have none.
 ///
 /// # Source
 /// Derived here from \[K2\], \[L5\] and \[B1\]; for a Newtonian fluid it is the slip of Ginzburg &

@@ -1,6 +1,9 @@
 //! Claims of the study `poiseuille`: channels, ducts, pipes and Couette flow of all fluids.
 
 mod channel;
+mod clamped;
+mod couette;
+mod ducts_pipes;
 mod newtonian;
 mod yield_stress;
 
@@ -23,12 +26,31 @@ pub static STUDY: Study = Study {
         newtonian::ORIENTATION,
         yield_stress::BINGHAM_L2,
         yield_stress::HB_L2,
+        yield_stress::HB_B3_L2,
         yield_stress::PLUG_CELLS,
         yield_stress::PLUG_RIGID,
         yield_stress::FLOW_INDEX,
         yield_stress::FROM_REST,
         yield_stress::SCHEME,
         yield_stress::WALL_NODE,
+        clamped::IMPLICIT_06,
+        clamped::IMPLICIT_15,
+        clamped::IMPLICIT_18,
+        clamped::LAGGED_06,
+        clamped::LAGGED_15,
+        clamped::LAGGED_18,
+        clamped::MODEL_ERROR,
+        clamped::OVER_YIELD_LAGGED,
+        clamped::OVER_YIELD_EXACT,
+        clamped::OVER_YIELD_REST,
+        couette::NEWTONIAN,
+        couette::ALL_LAWS,
+        couette::SHEAR_RATE,
+        couette::TAYLOR,
+        ducts_pipes::SQUARE_DUCT,
+        ducts_pipes::PIPE,
+        ducts_pipes::PIPE_BINGHAM,
+        ducts_pipes::PIPE_HB,
     ],
     exhibits: &[],
     mutants: &[],
