@@ -65,11 +65,6 @@ impl Scale {
     pub fn force(&self) -> f64 {
         2.0 * self.stress / self.n as f64
     }
-
-    /// Relaxation time of a viscosity.
-    pub fn tau(&self, viscosity: f64) -> f64 {
-        0.5 + 3.0 * viscosity * self.stress / self.rate
-    }
 }
 
 /// A plane channel on the lattice: `n` cells of `law` driven by `force`.
@@ -118,7 +113,11 @@ impl Column {
 
     /// The continuum flow that the run should approach.
     pub fn exact(&self) -> Result<Channel<Curve>, VerifyError> {
-        Ok(Channel { law: Curve::new(&self.law, self.yielding)?, half_width: 0.5 * self.n as f64, force: self.force })
+        Ok(Channel {
+            law: Curve::new(&self.law, self.yielding)?,
+            half_width: 0.5 * self.n as f64,
+            force: self.force,
+        })
     }
 
     /// Distance of cell j's centre from the mid-plane, with its sign.
@@ -185,9 +184,9 @@ impl Curve {
             YieldTreatment::Exact => Ok(Self::Ideal(*law)),
             YieldTreatment::ImplicitClamped { tau_min, tau_max }
             | YieldTreatment::LaggedClamped { tau_min, tau_max } => {
-                Trilinear::new(*law, (tau_min - 0.5) / 3.0, (tau_max - 0.5) / 3.0).map(Self::Clamped).map_err(|e| {
-                    VerifyError::Numerics { what: "the clamped law", detail: e.to_string() }
-                })
+                Trilinear::new(*law, (tau_min - 0.5) / 3.0, (tau_max - 0.5) / 3.0)
+                    .map(Self::Clamped)
+                    .map_err(|e| VerifyError::Numerics { what: "the clamped law", detail: e.to_string() })
             }
         }
     }
@@ -288,8 +287,6 @@ pub struct Steady {
     pub fields: Fields,
     /// Steps it took.
     pub steps: u64,
-    /// Change of velocity over the last interval, relative.
-    pub residual: f64,
 }
 
 impl Steady {
@@ -313,7 +310,7 @@ pub fn run_steady(
         let (steps, residual) = (outcome.steps, outcome.residual);
         return Err(VerifyError::NotSteady { steps, residual, wanted: tolerance });
     }
-    Ok(Steady { fields: run.fields(), steps: outcome.steps, residual: outcome.residual })
+    Ok(Steady { fields: run.fields(), steps: outcome.steps })
 }
 
 /// Runs a column until it changes by less than `tolerance` over a fifth of its relaxation time.
@@ -354,7 +351,8 @@ impl Plug {
         let exact = column.exact()?;
         let rigid = |j: usize| exact.stress(column.height(j)) <= exact.law.yield_stress();
         let fastest = fields.velocity.iter().map(|u| u[0].abs()).fold(0.0, f64::max);
-        let inside = || fields.omega.iter().zip(&fields.velocity).filter(|(w, _)| **w == 0.0).map(|(_, u)| u[0]);
+        let inside =
+            || fields.omega.iter().zip(&fields.velocity).filter(|(w, _)| **w == 0.0).map(|(_, u)| u[0]);
         let highest = inside().fold(f64::NEG_INFINITY, f64::max);
         let lowest = inside().fold(f64::INFINITY, f64::min);
         Ok(Self {

@@ -3,8 +3,12 @@
 mod channel;
 mod clamped;
 mod couette;
+mod density;
 mod ducts_pipes;
+mod mutants;
 mod newtonian;
+mod thesis_figures;
+mod work_precision;
 mod yield_stress;
 
 use crate::verify::golden::Agreement;
@@ -47,13 +51,20 @@ pub static STUDY: Study = Study {
         couette::ALL_LAWS,
         couette::SHEAR_RATE,
         couette::TAYLOR,
+        density::SI_DENSITY,
+        density::UNIFORM_ACCELERATION,
         ducts_pipes::SQUARE_DUCT,
         ducts_pipes::PIPE,
         ducts_pipes::PIPE_BINGHAM,
         ducts_pipes::PIPE_HB,
     ],
-    exhibits: &[],
-    mutants: &[],
+    exhibits: &[
+        thesis_figures::FIGURES,
+        ducts_pipes::STAIRCASE,
+        work_precision::WORK,
+        work_precision::SECONDS,
+    ],
+    mutants: mutants::MUTANTS,
     limits: &[],
     agreement: Agreement::Bits,
 };
