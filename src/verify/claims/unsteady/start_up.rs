@@ -1,0 +1,292 @@
+//! Start-up of yield-stress channel flow from rest against an independent one-dimensional solver.
+
+use std::sync::OnceLock;
+
+use super::support::{column, from_middle, no_reference};
+use crate::output::plot::{Axis, Plot, Series};
+use crate::rheology::Law;
+use crate::solver::run::Backend;
+use crate::solver::setup::{Setup, WallRule};
+use crate::verify::claim::{
+    Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
+use crate::verify::exact::ExactError;
+use crate::verify::exact::viscoplastic_1d::{Flow1d, LowerEnd, Profile, Scheme};
+use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
+
+/// Times of the profiles, in h²/ν_p. The flow is nearly steady at the last.
+pub const TIMES: [f64; 4] = [0.0625, 0.125, 0.25, 0.5];
+
+/// Yield stress over wall stress Gh: the final plug fills half the channel.
+const PLUG: f64 = 0.5;
+
+/// Flow index of the Herschel-Bulkley fluid, the thesis' value.
+const INDEX: f64 = 0.33;
+
+/// Re = U h/ν_p with U = Gh²/μ_p: the largest velocity is U/8, so Ma stays below 0.01 for τ ≤ 2.
+const REYNOLDS: f64 = 1.0;
+
+/// Which law flows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fluid {
+    /// σ = ½ + γ̇ in units of Gh and G h/μ_p.
+    Bingham,
+    /// σ = ½ + k γ̇^0.33, with k so that the steady wall shear rate is that of the Bingham fluid.
+    HerschelBulkley,
+}
+
+impl Fluid {
+    /// The law with unit of stress `stress` and plastic viscosity at the wall `viscosity`.
+    ///
+    /// The steady wall shear rate is ½ stress/viscosity for both, so both have the same plastic τ
+    /// there.
+    pub fn law(self, stress: f64, viscosity: f64) -> Law {
+        let sigma0 = PLUG * stress;
+        match self {
+            Self::Bingham => Law::Bingham { sigma0, mu: viscosity },
+            Self::HerschelBulkley => {
+                let wall_rate = (1.0 - PLUG) * stress / viscosity;
+                let k = (1.0 - PLUG) * stress / libm::pow(wall_rate, INDEX);
+                Law::HerschelBulkley { sigma0, k, n: INDEX }
+            }
+        }
+    }
+
+    /// Profiles at [`TIMES`] on `cells` intervals per half channel, in units h, h²/ν_p, Gh²/μ_p.
+    fn solve(self, cells: usize) -> Result<Vec<Profile>, ExactError> {
+        let flow = Flow1d {
+            law: self.law(1.0, 1.0),
+            density: 1.0,
+            length: 1.0,
+            cells,
+            lower: LowerEnd::Symmetry,
+            wall_speed: 0.0,
+            scheme: Scheme::Sdirk2,
+        };
+        flow.profiles(&flow.at_rest()?, &TIMES, 1e-6, 1e-3, &|_| 1.0)
+    }
+
+    /// The reference, computed once per process.
+    pub fn reference(self) -> Result<&'static [Profile], VerifyError> {
+        static BINGHAM: OnceLock<Result<Vec<Profile>, ExactError>> = OnceLock::new();
+        static HERSCHEL_BULKLEY: OnceLock<Result<Vec<Profile>, ExactError>> = OnceLock::new();
+        let store = match self {
+            Self::Bingham => &BINGHAM,
+            Self::HerschelBulkley => &HERSCHEL_BULKLEY,
+        };
+        match store.get_or_init(|| self.solve(REFERENCE_CELLS)) {
+            Ok(profiles) => Ok(profiles),
+            Err(error) => Err(no_reference(error.clone())),
+        }
+    }
+}
+
+/// Intervals per half channel of the reference; cell centres of N ≤ 512 are nodes of it.
+const REFERENCE_CELLS: usize = 512;
+
+/// One start-up in lattice units.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    pub fluid: Fluid,
+    pub wall: WallRule,
+    /// Cells across; N²/64 steps of the reference times must be whole numbers with τ.
+    pub cells: usize,
+    /// ½ + 3ν_p.
+    pub tau: f64,
+}
+
+impl Case {
+    fn nu(&self) -> f64 {
+        (self.tau - 0.5) / 3.0
+    }
+
+    /// Half width.
+    fn h(&self) -> f64 {
+        0.5 * self.cells as f64
+    }
+
+    /// Unit of velocity, Gh²/μ_p.
+    fn speed(&self) -> f64 {
+        REYNOLDS * self.nu() / self.h()
+    }
+
+    /// Velocities at [`TIMES`] in the unit Gh²/μ_p, one vector per time, and the reference's.
+    fn profiles(&self, backend: &dyn Backend) -> Result<(Vec<Vec<f64>>, Vec<Vec<f64>>), VerifyError> {
+        let (nu, h, speed) = (self.nu(), self.h(), self.speed());
+        let force = speed * nu / (h * h);
+        let mut setup = Setup::channel(self.cells, self.fluid.law(force * h, nu), force);
+        setup.wall_rule = self.wall;
+        let mut run = backend.start(&setup)?;
+        let (mut computed, mut exact) = (Vec::new(), Vec::new());
+        for profile in self.fluid.reference()? {
+            let step = (profile.time * h * h / nu).round() as u64;
+            run.advance(step - run.step())?;
+            computed.push(column(run.as_ref()).iter().map(|u| u / speed).collect());
+            exact.push((0..self.cells).map(|j| profile.velocity_at(from_middle(j, self.cells) / h)).collect());
+        }
+        Ok((computed, exact))
+    }
+
+    /// Error over all times and cells together.
+    fn sample(&self, backend: &dyn Backend, parameter: f64) -> Result<Sample, VerifyError> {
+        let (computed, exact) = self.profiles(backend)?;
+        let mut sample = Sample::l2(parameter, &computed.concat(), &exact.concat());
+        for (time, (u, v)) in TIMES.iter().zip(computed.iter().zip(&exact)) {
+            sample = sample.with(&format!("error at t = {time} h2/nu [-]"), Sample::l2(0.0, u, v).error);
+        }
+        Ok(sample)
+    }
+}
+
+const B3: WallRule = WallRule::ViscosityIndependent;
+
+fn in_cells(backend: &dyn Backend, fluid: Fluid, n: f64) -> Result<Sample, VerifyError> {
+    Case { fluid, wall: B3, cells: n as usize, tau: 0.8 }.sample(backend, n)
+}
+
+/// Δt ∝ Δx: τ − ½ grows with N.
+fn in_cells_and_steps(backend: &dyn Backend, fluid: Fluid, n: f64) -> Result<Sample, VerifyError> {
+    let tau = 0.5 + 0.3 * n / 16.0;
+    Ok(Case { fluid, wall: B3, cells: n as usize, tau }.sample(backend, n)?.with("tau [-]", tau))
+}
+
+fn in_tau(backend: &dyn Backend, fluid: Fluid, tau: f64) -> Result<Sample, VerifyError> {
+    Case { fluid, wall: B3, cells: 32, tau }.sample(backend, tau)
+}
+
+const fn claim(
+    id: &'static str,
+    title: &'static str,
+    ladder: Ladder,
+    order: Option<OrderBand>,
+    tolerance: Tolerance,
+    measure: fn(&dyn Backend, f64) -> Result<Sample, VerifyError>,
+) -> Claim {
+    Claim {
+        id,
+        title,
+        tags: &["Y1", "Y2", "Y3", "L4", "L5", "K3", "B3"],
+        measures: "velocity over cells at t = 1/16, 1/8, 1/4, 1/2 h2/nu_p, relative L2",
+        reference: Reference {
+            source: "one-dimensional viscoplastic solver (implicit, not regularised), 512 intervals per half width",
+            uncertainty: 5e-6,
+        },
+        metric: Metric::L2,
+        ladder,
+        order,
+        tolerance,
+        kind: Kind::Verification,
+        measure,
+    }
+}
+
+const CELLS: Ladder = Ladder {
+    parameter: "N (cells across)",
+    short: &[16.0, 32.0, 64.0],
+    full: &[8.0, 16.0, 32.0, 64.0, 128.0],
+};
+const STEPS: Ladder = Ladder {
+    parameter: "N (cells across)",
+    short: &[16.0, 32.0, 64.0],
+    full: &[8.0, 16.0, 32.0, 64.0, 128.0],
+};
+const TAUS: Ladder = Ladder {
+    parameter: "plastic tau",
+    short: &[0.65, 0.8, 1.1, 2.0],
+    full: &[0.55, 0.575, 0.65, 0.8, 1.1, 1.25, 2.0],
+};
+const SECOND: Option<OrderBand> = Some(OrderBand { expected: 2.0, band: 0.2, at_least: false });
+
+/// Bingham, order in N at fixed τ.
+pub const BINGHAM_CELLS: Claim = claim(
+    "start-up-bingham-cells",
+    "Start-up of Bingham channel flow converges at second order at fixed plastic tau.",
+    CELLS,
+    SECOND,
+    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    |backend, n| in_cells(backend, Fluid::Bingham, n),
+);
+/// Herschel-Bulkley, order in N at fixed τ.
+pub const HERSCHEL_BULKLEY_CELLS: Claim = claim(
+    "start-up-herschel-bulkley-cells",
+    "Start-up of Herschel-Bulkley channel flow converges at second order at fixed plastic tau.",
+    CELLS,
+    SECOND,
+    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    |backend, n| in_cells(backend, Fluid::HerschelBulkley, n),
+);
+/// Bingham, Δt ∝ Δx.
+pub const BINGHAM_STEPS: Claim = claim(
+    "start-up-bingham-steps",
+    "Start-up of Bingham channel flow with the time step in proportion to the cell size.",
+    STEPS,
+    SECOND,
+    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    |backend, n| in_cells_and_steps(backend, Fluid::Bingham, n),
+);
+/// Herschel-Bulkley, Δt ∝ Δx.
+pub const HERSCHEL_BULKLEY_STEPS: Claim = claim(
+    "start-up-herschel-bulkley-steps",
+    "Start-up of Herschel-Bulkley channel flow with the time step in proportion to the cell size.",
+    STEPS,
+    SECOND,
+    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    |backend, n| in_cells_and_steps(backend, Fluid::HerschelBulkley, n),
+);
+/// Bingham, τ at fixed N.
+pub const BINGHAM_TAU: Claim = claim(
+    "start-up-bingham-tau",
+    "Start-up of Bingham channel flow at 32 cells does not degrade with the time step.",
+    TAUS,
+    None,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, tau| in_tau(backend, Fluid::Bingham, tau),
+);
+/// Herschel-Bulkley, τ at fixed N.
+pub const HERSCHEL_BULKLEY_TAU: Claim = claim(
+    "start-up-herschel-bulkley-tau",
+    "Start-up of Herschel-Bulkley channel flow at 32 cells does not degrade with the time step.",
+    TAUS,
+    None,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, tau| in_tau(backend, Fluid::HerschelBulkley, tau),
+);
+
+/// Error against plastic τ, with and without \[B3\].
+pub const ERROR_AGAINST_TAU: Exhibit = Exhibit {
+    id: "start-up-error-against-tau",
+    caption: "Start-up from rest: error over all times against the plastic relaxation time at fixed N, \
+              with the half-way wall as it stands and with the viscosity-independent wall.",
+    timed: false,
+    run: error_against_tau,
+};
+
+fn error_against_tau(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
+    let cells: &[usize] = if full { &[16, 32, 64] } else { &[16, 32] };
+    let taus: &[f64] = if full { &[0.55, 0.575, 0.65, 0.8, 1.1, 1.25, 2.0] } else { TAUS.short };
+    let mut table = Table::new(
+        "Relative L2 error of the start-up against plastic tau",
+        &["fluid", "N", "wall", "tau", "all times", "t = 1/16", "t = 1/8", "t = 1/4", "t = 1/2"],
+    );
+    let mut plot = Plot::new(
+        "Start-up error against plastic relaxation time",
+        Axis::log("tau - 1/2", ""),
+        Axis::log("relative L2 error", ""),
+    );
+    for (fluid, name) in [(Fluid::Bingham, "Bingham"), (Fluid::HerschelBulkley, "HB n=0.33")] {
+        for (wall, rule) in [(WallRule::HalfWay, "half-way"), (B3, "[B3]")] {
+            for &n in cells {
+                let mut points = Vec::new();
+                for &tau in taus {
+                    let sample = Case { fluid, wall, cells: n, tau }.sample(backend, tau)?;
+                    points.push([tau - 0.5, sample.error]);
+                    let mut row = vec![name.into(), n.into(), rule.into(), tau.into(), sample.error.into()];
+                    row.extend(TIMES.iter().map(|t| sample.extra[&format!("error at t = {t} h2/nu [-]")].into()));
+                    table.push(row);
+                }
+                plot = plot.with(Series::line_markers(format!("{name}, N={n}, {rule}"), points));
+            }
+        }
+    }
+    Ok(ExhibitData { tables: vec![table], plots: vec![plot], notes: Vec::new() })
+}
