@@ -3,7 +3,11 @@
 use crate::verify::golden::Agreement;
 use crate::verify::study::Study;
 
+mod acoustic;
+mod mirror;
+mod plug;
 mod start_up;
+mod stopping;
 mod support;
 mod womersley;
 
@@ -19,12 +23,29 @@ pub static STUDY: Study = Study {
         womersley::ALPHA_1_CENTRAL,
         womersley::ALPHA_4_CENTRAL,
         womersley::ALPHA_10_CENTRAL,
-        start_up::BINGHAM_CELLS,
-        start_up::HERSCHEL_BULKLEY_CELLS,
-        start_up::BINGHAM_STEPS,
-        start_up::HERSCHEL_BULKLEY_STEPS,
-        start_up::BINGHAM_TAU,
-        start_up::HERSCHEL_BULKLEY_TAU,
+        start_up::BINGHAM_SUDDEN_CELLS,
+        start_up::BINGHAM_SUDDEN_STEPS,
+        start_up::BINGHAM_SUDDEN_TAU,
+        start_up::HERSCHEL_BULKLEY_SUDDEN_CELLS,
+        start_up::HERSCHEL_BULKLEY_SUDDEN_STEPS,
+        start_up::HERSCHEL_BULKLEY_SUDDEN_TAU,
+        start_up::BINGHAM_SMOOTH_CELLS,
+        start_up::BINGHAM_SMOOTH_STEPS,
+        start_up::BINGHAM_SMOOTH_TAU,
+        start_up::HERSCHEL_BULKLEY_SMOOTH_CELLS,
+        start_up::HERSCHEL_BULKLEY_SMOOTH_STEPS,
+        start_up::HERSCHEL_BULKLEY_SMOOTH_TAU,
+        acoustic::BGK_FREQUENCY,
+        acoustic::CENTRAL_FREQUENCY,
+        acoustic::BGK_DECAY,
+        acoustic::CENTRAL_DECAY,
+        acoustic::CUBE,
+        acoustic::HYDROSTATIC,
+        mirror::HALF_CHANNEL,
+        mirror::QUARTER_DUCT,
+        mirror::WALL_SET_IN_MOTION,
+        stopping::EXPLORE,
+        plug::EXPLORE,
     ],
     exhibits: &[start_up::ERROR_AGAINST_TAU],
     mutants: &[],

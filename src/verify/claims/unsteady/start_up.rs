@@ -1,12 +1,13 @@
 //! Start-up of yield-stress channel flow from rest against an independent one-dimensional solver.
 
+use core::f64::consts::TAU;
 use std::sync::OnceLock;
 
 use super::support::{column, from_middle, no_reference};
 use crate::output::plot::{Axis, Plot, Series};
 use crate::rheology::Law;
 use crate::solver::run::Backend;
-use crate::solver::setup::{Setup, WallRule};
+use crate::solver::setup::{BodyForce, Setup, WallRule};
 use crate::verify::claim::{
     Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
 };
@@ -14,8 +15,45 @@ use crate::verify::exact::ExactError;
 use crate::verify::exact::viscoplastic_1d::{Flow1d, LowerEnd, Profile, Scheme};
 use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
 
-/// Times of the profiles, in h²/ν_p. The flow is nearly steady at the last.
-pub const TIMES: [f64; 4] = [0.0625, 0.125, 0.25, 0.5];
+/// How the force sets in. Times in h²/ν_p, forces in G.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// 1 from t = 0 on.
+    Sudden,
+    /// ½(1 − cos 4πt): 1 at t = ¼, 0 again at ½.
+    Smooth,
+}
+
+impl Start {
+    /// Times of the profiles. Under the sudden force the flow is nearly steady at the last; under the
+    /// smooth one the walls yield at t = ⅛ and the force is back at ½ at the last.
+    pub const fn times(self) -> [f64; 4] {
+        match self {
+            Self::Sudden => [0.0625, 0.125, 0.25, 0.5],
+            Self::Smooth => [0.1875, 0.25, 0.3125, 0.375],
+        }
+    }
+
+    fn force(self, t: f64) -> f64 {
+        match self {
+            Self::Sudden => 1.0,
+            Self::Smooth => 0.5 * (1.0 - libm::cos(2.0 * TAU * t)),
+        }
+    }
+
+    /// The same in lattice units: peak force, and steps per h²/ν_p.
+    fn body_force(self, peak: f64, unit: f64) -> BodyForce {
+        match self {
+            Self::Sudden => BodyForce::Constant([peak, 0.0, 0.0]),
+            Self::Smooth => BodyForce::Oscillating {
+                mean: [0.5 * peak, 0.0, 0.0],
+                amplitude: [-0.5 * peak, 0.0, 0.0],
+                frequency: 2.0 * TAU / unit,
+                phase: 0.0,
+            },
+        }
+    }
+}
 
 /// Yield stress over wall stress Gh: the final plug fills half the channel.
 const PLUG: f64 = 0.5;
@@ -52,8 +90,8 @@ impl Fluid {
         }
     }
 
-    /// Profiles at [`TIMES`] on `cells` intervals per half channel, in units h, h²/ν_p, Gh²/μ_p.
-    fn solve(self, cells: usize) -> Result<Vec<Profile>, ExactError> {
+    /// Profiles at the start's times on `cells` intervals per half channel, in units h, h²/ν_p, Gh²/μ_p.
+    fn solve(self, start: Start, cells: usize) -> Result<Vec<Profile>, ExactError> {
         let flow = Flow1d {
             law: self.law(1.0, 1.0),
             density: 1.0,
@@ -63,18 +101,14 @@ impl Fluid {
             wall_speed: 0.0,
             scheme: Scheme::Sdirk2,
         };
-        flow.profiles(&flow.at_rest()?, &TIMES, 1e-6, 1e-3, &|_| 1.0)
+        flow.profiles(&flow.at_rest()?, &start.times(), 1e-6, 1e-3, &|t| start.force(t))
     }
 
     /// The reference, computed once per process.
-    pub fn reference(self) -> Result<&'static [Profile], VerifyError> {
-        static BINGHAM: OnceLock<Result<Vec<Profile>, ExactError>> = OnceLock::new();
-        static HERSCHEL_BULKLEY: OnceLock<Result<Vec<Profile>, ExactError>> = OnceLock::new();
-        let store = match self {
-            Self::Bingham => &BINGHAM,
-            Self::HerschelBulkley => &HERSCHEL_BULKLEY,
-        };
-        match store.get_or_init(|| self.solve(REFERENCE_CELLS)) {
+    pub fn reference(self, start: Start) -> Result<&'static [Profile], VerifyError> {
+        static STORE: [OnceLock<Result<Vec<Profile>, ExactError>>; 4] = [const { OnceLock::new() }; 4];
+        let slot = 2 * usize::from(self == Self::Bingham) + usize::from(start == Start::Sudden);
+        match STORE[slot].get_or_init(|| self.solve(start, REFERENCE_CELLS)) {
             Ok(profiles) => Ok(profiles),
             Err(error) => Err(no_reference(error.clone())),
         }
@@ -88,6 +122,7 @@ const REFERENCE_CELLS: usize = 512;
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     pub fluid: Fluid,
+    pub start: Start,
     pub wall: WallRule,
     /// Cells across; N²/64 steps of the reference times must be whole numbers with τ.
     pub cells: usize,
@@ -110,15 +145,16 @@ impl Case {
         REYNOLDS * self.nu() / self.h()
     }
 
-    /// Velocities at [`TIMES`] in the unit Gh²/μ_p, one vector per time, and the reference's.
+    /// Velocities at the start's times in the unit Gh²/μ_p, one vector per time, and the reference's.
     fn profiles(&self, backend: &dyn Backend) -> Result<(Vec<Vec<f64>>, Vec<Vec<f64>>), VerifyError> {
         let (nu, h, speed) = (self.nu(), self.h(), self.speed());
         let force = speed * nu / (h * h);
         let mut setup = Setup::channel(self.cells, self.fluid.law(force * h, nu), force);
         setup.wall_rule = self.wall;
+        setup.force = self.start.body_force(force, h * h / nu);
         let mut run = backend.start(&setup)?;
         let (mut computed, mut exact) = (Vec::new(), Vec::new());
-        for profile in self.fluid.reference()? {
+        for profile in self.fluid.reference(self.start)? {
             let step = (profile.time * h * h / nu).round() as u64;
             run.advance(step - run.step())?;
             computed.push(column(run.as_ref()).iter().map(|u| u / speed).collect());
@@ -131,7 +167,7 @@ impl Case {
     fn sample(&self, backend: &dyn Backend, parameter: f64) -> Result<Sample, VerifyError> {
         let (computed, exact) = self.profiles(backend)?;
         let mut sample = Sample::l2(parameter, &computed.concat(), &exact.concat());
-        for (time, (u, v)) in TIMES.iter().zip(computed.iter().zip(&exact)) {
+        for (time, (u, v)) in self.start.times().iter().zip(computed.iter().zip(&exact)) {
             sample = sample.with(&format!("error at t = {time} h2/nu [-]"), Sample::l2(0.0, u, v).error);
         }
         Ok(sample)
@@ -140,18 +176,18 @@ impl Case {
 
 const B3: WallRule = WallRule::ViscosityIndependent;
 
-fn in_cells(backend: &dyn Backend, fluid: Fluid, n: f64) -> Result<Sample, VerifyError> {
-    Case { fluid, wall: B3, cells: n as usize, tau: 0.8 }.sample(backend, n)
+fn in_cells(backend: &dyn Backend, fluid: Fluid, start: Start, n: f64) -> Result<Sample, VerifyError> {
+    Case { fluid, start, wall: B3, cells: n as usize, tau: 0.8 }.sample(backend, n)
 }
 
 /// Δt ∝ Δx: τ − ½ grows with N.
-fn in_cells_and_steps(backend: &dyn Backend, fluid: Fluid, n: f64) -> Result<Sample, VerifyError> {
+fn in_cells_and_steps(backend: &dyn Backend, fluid: Fluid, start: Start, n: f64) -> Result<Sample, VerifyError> {
     let tau = 0.5 + 0.3 * n / 16.0;
-    Ok(Case { fluid, wall: B3, cells: n as usize, tau }.sample(backend, n)?.with("tau [-]", tau))
+    Ok(Case { fluid, start, wall: B3, cells: n as usize, tau }.sample(backend, n)?.with("tau [-]", tau))
 }
 
-fn in_tau(backend: &dyn Backend, fluid: Fluid, tau: f64) -> Result<Sample, VerifyError> {
-    Case { fluid, wall: B3, cells: 32, tau }.sample(backend, tau)
+fn in_tau(backend: &dyn Backend, fluid: Fluid, start: Start, tau: f64) -> Result<Sample, VerifyError> {
+    Case { fluid, start, wall: B3, cells: 32, tau }.sample(backend, tau)
 }
 
 const fn claim(
@@ -197,61 +233,114 @@ const TAUS: Ladder = Ladder {
 };
 const SECOND: Option<OrderBand> = Some(OrderBand { expected: 2.0, band: 0.2, at_least: false });
 
-/// Bingham, order in N at fixed τ.
-pub const BINGHAM_CELLS: Claim = claim(
-    "start-up-bingham-cells",
-    "Start-up of Bingham channel flow converges at second order at fixed plastic tau.",
+/// Bingham, Sudden, CELLS.
+pub const BINGHAM_SUDDEN_CELLS: Claim = claim(
+    "start-up-sudden-bingham-cells",
+    "T",
     CELLS,
     SECOND,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
-    |backend, n| in_cells(backend, Fluid::Bingham, n),
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, x| in_cells(backend, Fluid::Bingham, Start::Sudden, x),
 );
-/// Herschel-Bulkley, order in N at fixed τ.
-pub const HERSCHEL_BULKLEY_CELLS: Claim = claim(
-    "start-up-herschel-bulkley-cells",
-    "Start-up of Herschel-Bulkley channel flow converges at second order at fixed plastic tau.",
-    CELLS,
-    SECOND,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
-    |backend, n| in_cells(backend, Fluid::HerschelBulkley, n),
-);
-/// Bingham, Δt ∝ Δx.
-pub const BINGHAM_STEPS: Claim = claim(
-    "start-up-bingham-steps",
-    "Start-up of Bingham channel flow with the time step in proportion to the cell size.",
+/// Bingham, Sudden, STEPS.
+pub const BINGHAM_SUDDEN_STEPS: Claim = claim(
+    "start-up-sudden-bingham-steps",
+    "T",
     STEPS,
     SECOND,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
-    |backend, n| in_cells_and_steps(backend, Fluid::Bingham, n),
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, x| in_cells_and_steps(backend, Fluid::Bingham, Start::Sudden, x),
 );
-/// Herschel-Bulkley, Δt ∝ Δx.
-pub const HERSCHEL_BULKLEY_STEPS: Claim = claim(
-    "start-up-herschel-bulkley-steps",
-    "Start-up of Herschel-Bulkley channel flow with the time step in proportion to the cell size.",
-    STEPS,
-    SECOND,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
-    |backend, n| in_cells_and_steps(backend, Fluid::HerschelBulkley, n),
-);
-/// Bingham, τ at fixed N.
-pub const BINGHAM_TAU: Claim = claim(
-    "start-up-bingham-tau",
-    "Start-up of Bingham channel flow at 32 cells does not degrade with the time step.",
+/// Bingham, Sudden, TAU.
+pub const BINGHAM_SUDDEN_TAU: Claim = claim(
+    "start-up-sudden-bingham-tau",
+    "T",
     TAUS,
     None,
     Tolerance { value: 1.0, at: Rung::Every, because: "" },
-    |backend, tau| in_tau(backend, Fluid::Bingham, tau),
+    |backend, x| in_tau(backend, Fluid::Bingham, Start::Sudden, x),
 );
-/// Herschel-Bulkley, τ at fixed N.
-pub const HERSCHEL_BULKLEY_TAU: Claim = claim(
-    "start-up-herschel-bulkley-tau",
-    "Start-up of Herschel-Bulkley channel flow at 32 cells does not degrade with the time step.",
+/// Herschel-Bulkley, Sudden, CELLS.
+pub const HERSCHEL_BULKLEY_SUDDEN_CELLS: Claim = claim(
+    "start-up-sudden-herschel-bulkley-cells",
+    "T",
+    CELLS,
+    SECOND,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, x| in_cells(backend, Fluid::HerschelBulkley, Start::Sudden, x),
+);
+/// Herschel-Bulkley, Sudden, STEPS.
+pub const HERSCHEL_BULKLEY_SUDDEN_STEPS: Claim = claim(
+    "start-up-sudden-herschel-bulkley-steps",
+    "T",
+    STEPS,
+    SECOND,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, x| in_cells_and_steps(backend, Fluid::HerschelBulkley, Start::Sudden, x),
+);
+/// Herschel-Bulkley, Sudden, TAU.
+pub const HERSCHEL_BULKLEY_SUDDEN_TAU: Claim = claim(
+    "start-up-sudden-herschel-bulkley-tau",
+    "T",
     TAUS,
     None,
     Tolerance { value: 1.0, at: Rung::Every, because: "" },
-    |backend, tau| in_tau(backend, Fluid::HerschelBulkley, tau),
+    |backend, x| in_tau(backend, Fluid::HerschelBulkley, Start::Sudden, x),
 );
-
+/// Bingham, Smooth, CELLS.
+pub const BINGHAM_SMOOTH_CELLS: Claim = claim(
+    "start-up-smooth-bingham-cells",
+    "T",
+    CELLS,
+    SECOND,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, x| in_cells(backend, Fluid::Bingham, Start::Smooth, x),
+);
+/// Bingham, Smooth, STEPS.
+pub const BINGHAM_SMOOTH_STEPS: Claim = claim(
+    "start-up-smooth-bingham-steps",
+    "T",
+    STEPS,
+    SECOND,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, x| in_cells_and_steps(backend, Fluid::Bingham, Start::Smooth, x),
+);
+/// Bingham, Smooth, TAU.
+pub const BINGHAM_SMOOTH_TAU: Claim = claim(
+    "start-up-smooth-bingham-tau",
+    "T",
+    TAUS,
+    None,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, x| in_tau(backend, Fluid::Bingham, Start::Smooth, x),
+);
+/// Herschel-Bulkley, Smooth, CELLS.
+pub const HERSCHEL_BULKLEY_SMOOTH_CELLS: Claim = claim(
+    "start-up-smooth-herschel-bulkley-cells",
+    "T",
+    CELLS,
+    SECOND,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, x| in_cells(backend, Fluid::HerschelBulkley, Start::Smooth, x),
+);
+/// Herschel-Bulkley, Smooth, STEPS.
+pub const HERSCHEL_BULKLEY_SMOOTH_STEPS: Claim = claim(
+    "start-up-smooth-herschel-bulkley-steps",
+    "T",
+    STEPS,
+    SECOND,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, x| in_cells_and_steps(backend, Fluid::HerschelBulkley, Start::Smooth, x),
+);
+/// Herschel-Bulkley, Smooth, TAU.
+pub const HERSCHEL_BULKLEY_SMOOTH_TAU: Claim = claim(
+    "start-up-smooth-herschel-bulkley-tau",
+    "T",
+    TAUS,
+    None,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, x| in_tau(backend, Fluid::HerschelBulkley, Start::Smooth, x),
+);
 /// Error against plastic τ, with and without \[B3\].
 pub const ERROR_AGAINST_TAU: Exhibit = Exhibit {
     id: "start-up-error-against-tau",
@@ -273,15 +362,20 @@ fn error_against_tau(backend: &dyn Backend, full: bool) -> Result<ExhibitData, V
         Axis::log("tau - 1/2", ""),
         Axis::log("relative L2 error", ""),
     );
-    for (fluid, name) in [(Fluid::Bingham, "Bingham"), (Fluid::HerschelBulkley, "HB n=0.33")] {
+    for (start, fluid, name) in [
+        (Start::Sudden, Fluid::Bingham, "sudden Bingham"),
+        (Start::Sudden, Fluid::HerschelBulkley, "sudden HB"),
+        (Start::Smooth, Fluid::Bingham, "smooth Bingham"),
+        (Start::Smooth, Fluid::HerschelBulkley, "smooth HB"),
+    ] {
         for (wall, rule) in [(WallRule::HalfWay, "half-way"), (B3, "[B3]")] {
             for &n in cells {
                 let mut points = Vec::new();
                 for &tau in taus {
-                    let sample = Case { fluid, wall, cells: n, tau }.sample(backend, tau)?;
+                    let sample = Case { fluid, start, wall, cells: n, tau }.sample(backend, tau)?;
                     points.push([tau - 0.5, sample.error]);
                     let mut row = vec![name.into(), n.into(), rule.into(), tau.into(), sample.error.into()];
-                    row.extend(TIMES.iter().map(|t| sample.extra[&format!("error at t = {t} h2/nu [-]")].into()));
+                    row.extend(start.times().iter().map(|t| sample.extra[&format!("error at t = {t} h2/nu [-]")].into()));
                     table.push(row);
                 }
                 plot = plot.with(Series::line_markers(format!("{name}, N={n}, {rule}"), points));
