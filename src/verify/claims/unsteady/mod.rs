@@ -4,6 +4,8 @@ use crate::verify::golden::Agreement;
 use crate::verify::study::Study;
 
 mod acoustic;
+mod drift;
+mod elastic;
 mod mirror;
 mod plug;
 mod start_up;
@@ -24,17 +26,13 @@ pub static STUDY: Study = Study {
         womersley::ALPHA_4_CENTRAL,
         womersley::ALPHA_10_CENTRAL,
         start_up::BINGHAM_SUDDEN_CELLS,
-        start_up::BINGHAM_SUDDEN_STEPS,
-        start_up::BINGHAM_SUDDEN_TAU,
+        start_up::BINGHAM_SUDDEN_TIME,
         start_up::HERSCHEL_BULKLEY_SUDDEN_CELLS,
-        start_up::HERSCHEL_BULKLEY_SUDDEN_STEPS,
-        start_up::HERSCHEL_BULKLEY_SUDDEN_TAU,
+        start_up::HERSCHEL_BULKLEY_SUDDEN_TIME,
         start_up::BINGHAM_SMOOTH_CELLS,
-        start_up::BINGHAM_SMOOTH_STEPS,
-        start_up::BINGHAM_SMOOTH_TAU,
+        start_up::BINGHAM_SMOOTH_TIME,
         start_up::HERSCHEL_BULKLEY_SMOOTH_CELLS,
-        start_up::HERSCHEL_BULKLEY_SMOOTH_STEPS,
-        start_up::HERSCHEL_BULKLEY_SMOOTH_TAU,
+        start_up::HERSCHEL_BULKLEY_SMOOTH_TIME,
         acoustic::BGK_FREQUENCY,
         acoustic::CENTRAL_FREQUENCY,
         acoustic::BGK_DECAY,
@@ -44,10 +42,17 @@ pub static STUDY: Study = Study {
         mirror::HALF_CHANNEL,
         mirror::QUARTER_DUCT,
         mirror::WALL_SET_IN_MOTION,
-        stopping::EXPLORE,
-        plug::EXPLORE,
+        stopping::TIME,
+        stopping::ENERGY,
+        stopping::CLAMPED_TIME,
+        stopping::CLAMPED_CREEP,
+        stopping::REST_HALF_WAY,
+        stopping::REST_B3,
+        elastic::RINGING,
+        plug::DIAGONAL,
+        plug::SKEW,
     ],
-    exhibits: &[start_up::ERROR_AGAINST_TAU],
+    exhibits: &[start_up::ERROR_AGAINST_TAU, elastic::AGAINST_FLOOR, drift::ARREST, drift::STAIRCASE],
     mutants: &[],
     limits: &[],
     agreement: Agreement::Bits,

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use super::start_up::Fluid;
-use super::support::{from_middle, largest, no_reference, starting_profile};
+use super::support::{central, largest, no_reference, starting_profile};
 use crate::rheology::Law;
 use crate::solver::run::Backend;
 use crate::solver::setup::{BodyForce, Setup, WallRule, YieldTreatment};
@@ -18,16 +18,16 @@ use crate::verify::exact::viscoplastic_1d::{Flow1d, LowerEnd, Scheme};
 /// Force after the step over the force before: wall stress 2σ0 before, σ0/2 after.
 const AFTER: f64 = 0.25;
 
-/// Kinetic energy, over that before the step, at which the flow counts as stopped.
-pub const STOPPED: f64 = 1e-6;
+/// Levels of the kinetic energy, over that before the step, whose times are compared.
+const LEVELS: [f64; 3] = [1e-3, 1e-4, 1e-6];
 
 /// Times of a stop, in h²/ν.
 #[derive(Clone, Copy, Debug)]
 pub struct Stop {
     /// Every velocity is exactly zero.
     pub rest: f64,
-    /// The kinetic energy has fallen to [`STOPPED`].
-    pub energy: f64,
+    /// The kinetic energy has fallen to each of [`LEVELS`].
+    pub energy: [f64; 3],
 }
 
 /// The stop of the ideal fluid, in one dimension; `cells` intervals and steps of `dt`.
@@ -43,22 +43,29 @@ fn ideal(cells: usize, dt: f64) -> Result<Stop, ExactError> {
     };
     let from = flow.steady_half_channel(1.0)?;
     let rest = flow.stopping_time(&from, AFTER, dt, 1.0)?;
-    let threshold = STOPPED * from.kinetic_energy_over_density();
+    let first = from.kinetic_energy_over_density();
+    let mut energy = [0.0; 3];
     let mut now = from;
-    loop {
+    while energy[2] == 0.0 {
         let next = flow.step(&now, dt, &|_| AFTER)?;
-        let (a, b) = (now.kinetic_energy_over_density(), next.kinetic_energy_over_density());
-        if b <= threshold {
-            // Linear in the speed, which falls almost linearly.
-            let part = (a.sqrt() - threshold.sqrt()) / (a.sqrt() - b.sqrt());
-            return Ok(Stop { rest, energy: now.time + part * dt });
+        let (a, b) = (now.kinetic_energy_over_density() / first, next.kinetic_energy_over_density() / first);
+        for (time, level) in energy.iter_mut().zip(LEVELS) {
+            if *time == 0.0 && b <= level {
+                *time = now.time + dt * fraction(a, b, level);
+            }
         }
         now = next;
     }
+    Ok(Stop { rest, energy })
+}
+
+/// Where between two energies a level is crossed, linear in the speed.
+fn fraction(before: f64, after: f64, level: f64) -> f64 {
+    (before.sqrt() - level.sqrt()) / (before.sqrt() - after.sqrt())
 }
 
 /// The reference, computed once per process.
-fn reference() -> Result<Stop, VerifyError> {
+pub fn reference() -> Result<Stop, VerifyError> {
     static STORE: OnceLock<Result<Stop, ExactError>> = OnceLock::new();
     STORE.get_or_init(|| ideal(512, 2e-4)).clone().map_err(no_reference)
 }
@@ -70,6 +77,8 @@ pub struct Case {
     pub tau: f64,
     pub wall: WallRule,
     pub yielding: YieldTreatment,
+    /// θ, least τ⁻ − ½.
+    pub floor: f64,
 }
 
 /// Re = U h/ν with U = Gh²/μ.
@@ -106,6 +115,7 @@ impl Case {
         };
         setup.wall_rule = self.wall;
         setup.yielding = self.yielding;
+        setup.collision = central(self.floor);
         let gradient = move |y: f64| -law.rate(force * y.abs()) * y.signum();
         setup.initial = Some(starting_profile(self.cells, move |y| steady.velocity(y), gradient));
         let mut run = backend.start(&setup)?;
@@ -118,7 +128,6 @@ impl Case {
             run.advance(1)?;
         }
         let speed = largest(run.fields().velocity.iter().map(|u| u[0]));
-        debug_assert!(from_middle(0, self.cells) < 0.0);
         Ok(Seen {
             energy,
             left: speed / steady.plug_velocity(),
@@ -129,56 +138,159 @@ impl Case {
 }
 
 impl Seen {
-    /// First time, in h²/ν, from which on the kinetic energy stays below `level`.
-    pub fn stays_below(&self, level: f64) -> f64 {
-        match self.energy.iter().rposition(|&e| e >= level) {
-            None => 0.0,
-            Some(last) if last + 1 == self.energy.len() => f64::INFINITY,
-            Some(last) => {
-                let (a, b) = (self.energy[last].sqrt(), self.energy[last + 1].sqrt());
-                (last as f64 + (a - level.sqrt()) / (a - b)) / self.unit
+    /// First time, in h²/ν, at which the kinetic energy is below `level`.
+    pub fn first_below(&self, level: f64) -> f64 {
+        match self.energy.iter().position(|&e| e < level) {
+            None => f64::INFINITY,
+            Some(0) => 0.0,
+            Some(at) => {
+                ((at - 1) as f64 + fraction(self.energy[at - 1], self.energy[at], level)) / self.unit
             }
         }
     }
+
+    /// Largest kinetic energy from a time in h²/ν on.
+    pub fn most_after(&self, time: f64) -> f64 {
+        largest(self.energy.iter().skip((time * self.unit) as usize).copied())
+    }
 }
 
-/// Exploration.
-pub const EXPLORE: Claim = Claim {
-    id: "bingham-stop-explore",
-    title: "x",
-    tags: &["Y3"],
-    measures: "x",
-    reference: Reference { source: "x", uncertainty: 0.0 },
-    metric: Metric::Relative,
-    ladder: Ladder { parameter: "tau", short: &[0.55, 0.65, 0.8], full: &[0.55, 0.65, 0.8] },
-    order: None::<OrderBand>,
-    tolerance: Tolerance { value: 1.0, at: Rung::Last, because: "x" },
-    kind: Kind::Verification,
-    measure: |backend, tau| {
-        let r = reference()?;
-        eprintln!("T_stop {} T_energy {}", r.rest, r.energy);
-        for (cells, wall) in [
-            (16, WallRule::HalfWay),
-            (16, WallRule::ViscosityIndependent),
-            (32, WallRule::ViscosityIndependent),
-            (64, WallRule::ViscosityIndependent),
-        ] {
-            let case = Case { cells, tau, wall, yielding: YieldTreatment::Exact };
-            let seen = case.run(backend, 4.0 * r.rest)?;
-            let at = |f: f64| seen.energy[((f * r.rest * seen.unit) as usize).min(seen.energy.len() - 1)];
-            eprintln!(
-                "tau {tau} N {cells} {wall:?} T(1e-2) {:.4} T(1e-4) {:.4} T(1e-6) {:.4}; E at .9 {:.2e} 1 {:.2e} 1.1 {:.2e} 1.5 {:.2e} 2 {:.2e} 3 {:.2e} end {:.2e}; left {:.3e} per F {:.3e}",
-                seen.stays_below(1e-2) / r.rest, seen.stays_below(1e-4) / r.rest, seen.stays_below(1e-6) / r.rest,
-                at(0.9), at(1.0), at(1.1), at(1.5), at(2.0), at(3.0), at(3.99), seen.left, seen.left_per_force
-            );
-        }
-        for ratio in [500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16000.0] {
-            let tau_max = 0.5 + ratio * (tau - 0.5);
-            let case = Case { cells: 32, tau, wall: WallRule::ViscosityIndependent, yielding: YieldTreatment::ImplicitClamped { tau_min: 0.5, tau_max } };
-            let seen = case.run(backend, 4.0 * r.rest)?;
-            eprintln!("clamped {ratio} T(1e-2) {:.4} T(1e-4) {:.4} T(1e-6) {:.4} left {:.3e} x ratio {:.4}",
-                seen.stays_below(1e-2) / r.rest, seen.stays_below(1e-4) / r.rest, seen.stays_below(1e-6) / r.rest, seen.left, seen.left * ratio);
-        }
-        Ok(Sample::relative(tau, r.rest, r.energy))
-    },
-};
+const B3: WallRule = WallRule::ViscosityIndependent;
+
+fn exact(cells: usize, tau: f64, wall: WallRule) -> Case {
+    Case { cells, tau, wall, yielding: YieldTreatment::Exact, floor: 0.05 }
+}
+
+fn stopping_time(backend: &dyn Backend, n: f64) -> Result<Sample, VerifyError> {
+    let ideal = reference()?;
+    let case = exact(n as usize, 0.55, B3);
+    let seen = case.run(backend, 1.3 * ideal.rest)?;
+    Ok(Sample::relative(n, seen.first_below(LEVELS[1]), ideal.energy[1])
+        .with("first below 1e-6 KE(0), over T_stop [-]", seen.first_below(LEVELS[2]) / ideal.rest)
+        .with("most KE after 1.1 T_stop, over KE(0) [-]", seen.most_after(1.1 * ideal.rest))
+        .with("T_stop [h2/nu]", ideal.rest))
+}
+
+/// H14's own criterion: KE < 1e-6 KE(0) within 1.1 T_stop.
+fn energy_gone(backend: &dyn Backend, tau: f64) -> Result<Sample, VerifyError> {
+    let ideal = reference()?;
+    let seen = exact(64, tau, B3).run(backend, 3.0 * ideal.rest)?;
+    let elastic = 3.0_f64.sqrt() * (tau - 0.5) / 3.0 / 32.0;
+    Ok(Sample::relative(tau, seen.first_below(LEVELS[2]), ideal.energy[2])
+        .with("first below 1e-6 KE(0), over T_stop [-]", seen.first_below(LEVELS[2]) / ideal.rest)
+        .with("most KE after 1.1 T_stop, over KE(0) [-]", seen.most_after(1.1 * ideal.rest))
+        .with("nu/(h c_s) [-]", elastic))
+}
+
+fn clamped(backend: &dyn Backend, ratio: f64, longest: f64) -> Result<(Stop, Seen), VerifyError> {
+    let ideal = reference()?;
+    let tau = 0.55;
+    let tau_max = 0.5 + ratio * (tau - 0.5);
+    let yielding = YieldTreatment::ImplicitClamped { tau_min: 0.5, tau_max };
+    let seen = Case { yielding, ..exact(64, tau, B3) }.run(backend, longest * ideal.rest)?;
+    Ok((ideal, seen))
+}
+
+fn clamped_time(backend: &dyn Backend, ratio: f64) -> Result<Sample, VerifyError> {
+    let (ideal, seen) = clamped(backend, ratio, 1.3)?;
+    Ok(Sample::relative(ratio, seen.first_below(LEVELS[0]), ideal.energy[0]))
+}
+
+fn clamped_creep(backend: &dyn Backend, ratio: f64) -> Result<Sample, VerifyError> {
+    let (_, seen) = clamped(backend, ratio, 4.0)?;
+    Ok(Sample::relative(ratio, seen.left, 1.0 / ratio))
+}
+
+/// Mean speed, over the force, long after the stop.
+fn rest(backend: &dyn Backend, wall: WallRule, n: f64, reference: f64) -> Result<Sample, VerifyError> {
+    let seen = exact(n as usize, 0.8, wall).run(backend, 100.0)?;
+    Ok(Sample::absolute(n, seen.left_per_force, reference))
+}
+
+const fn claim(
+    id: &'static str,
+    title: &'static str,
+    measures: &'static str,
+    ladder: Ladder,
+    order: Option<OrderBand>,
+    tolerance: Tolerance,
+    measure: fn(&dyn Backend, f64) -> Result<Sample, VerifyError>,
+) -> Claim {
+    Claim {
+        id,
+        title,
+        tags: &["Y3", "K3", "B3"],
+        measures,
+        reference: Reference {
+            source: "one-dimensional viscoplastic solver, wall stress stepped from 2 to 1/2 of the yield stress",
+            uncertainty: 1e-4,
+        },
+        metric: Metric::Relative,
+        ladder,
+        order,
+        tolerance,
+        kind: Kind::Verification,
+        measure,
+    }
+}
+
+/// Stopping time, order.
+pub const TIME: Claim = claim(
+    "bingham-stop-time",
+    "A",
+    "time from the step until the kinetic energy is 1e-4 of that before, relative",
+    Ladder { parameter: "N (cells across)", short: &[16.0, 32.0, 64.0], full: &[16.0, 32.0, 64.0, 128.0] },
+    Some(OrderBand { expected: 2.0, band: 0.5, at_least: true }),
+    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    stopping_time,
+);
+/// H14.
+pub const ENERGY: Claim = claim(
+    "bingham-stop-energy",
+    "B",
+    "time from the step until the kinetic energy is 1e-6 of that before, relative",
+    Ladder { parameter: "tau", short: &[0.55, 0.65, 0.8], full: &[0.55, 0.65, 0.8] },
+    None,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    energy_gone,
+);
+/// Clamped.
+pub const CLAMPED_TIME: Claim = claim(
+    "bingham-stop-clamped-time",
+    "C",
+    "time from the step until the kinetic energy is 1e-3 of that before, relative",
+    Ladder { parameter: "mu_max / mu", short: &[62.5, 125.0, 250.0, 500.0], full: &[62.5, 125.0, 250.0, 500.0, 1000.0] },
+    Some(OrderBand { expected: 1.0, band: 0.2, at_least: false }),
+    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    clamped_time,
+);
+/// Clamped creep.
+pub const CLAMPED_CREEP: Claim = claim(
+    "bingham-stop-clamped-creep",
+    "D",
+    "speed left at 4 T_stop over the plug speed before, relative",
+    Ladder { parameter: "mu_max / mu", short: &[125.0, 250.0], full: &[125.0, 250.0, 500.0, 1000.0] },
+    None,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    clamped_creep,
+);
+/// Rest, half-way.
+pub const REST_HALF_WAY: Claim = claim(
+    "bingham-stop-rest-half-way",
+    "E",
+    "largest speed over F/rho 100 h2/nu after the step, absolute",
+    Ladder { parameter: "N (cells across)", short: &[8.0, 16.0], full: &[8.0, 16.0] },
+    None,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, n| rest(backend, WallRule::HalfWay, n, 0.1),
+);
+/// Rest, \[B3\].
+pub const REST_B3: Claim = claim(
+    "bingham-stop-rest-b3",
+    "F",
+    "largest speed over F/rho 100 h2/nu after the step, absolute",
+    Ladder { parameter: "N (cells across)", short: &[8.0, 16.0], full: &[8.0, 16.0] },
+    None,
+    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    |backend, n| rest(backend, B3, n, 0.0),
+);

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::collision::{CollisionChoice, OddRate};
 use crate::solver::run::Run;
 use crate::solver::setup::{FlowPoint, InitialFlow};
 use crate::verify::claim::VerifyError;
@@ -34,6 +35,11 @@ pub fn starting_profile(
         rates[0][1] = gradient(y);
         FlowPoint { density: 1.0, velocity: [velocity(y), 0.0, 0.0], gradient: rates }
     })
+}
+
+/// The default collision with another floor θ.
+pub const fn central(floor: f64) -> CollisionChoice {
+    CollisionChoice::CentralMoment(OddRate { magic: 3.0 / 16.0, floor, lowered_below: 0.05 })
 }
 
 /// Largest |x|; NaN if there is one.

@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use super::support::{column, from_middle, starting_profile};
+use super::support::{central, column, from_middle, starting_profile};
 use crate::collision::{CollisionChoice, OddRate};
 use crate::rheology::Law;
 use crate::solver::run::Backend;
@@ -13,8 +13,7 @@ use crate::verify::claim::{
 use crate::verify::exact::womersley::WomersleySlit;
 
 const TRT: CollisionChoice = CollisionChoice::Trt(OddRate::fixed(3.0 / 16.0));
-const CENTRAL: CollisionChoice =
-    CollisionChoice::CentralMoment(OddRate { magic: 3.0 / 16.0, floor: 0.05, lowered_below: 0.05 });
+const CENTRAL: CollisionChoice = central(0.05);
 
 /// Samples per period; ten resolve one harmonic exactly, and divide every period used.
 const SAMPLES: u64 = 10;
