@@ -27,7 +27,6 @@ impl OddRate {
     /// The default parameters \[K3\] \[K5\].
     pub const STANDARD: Self = Self { magic: 3.0 / 16.0, floor: 0.05, lowered_below: 0.05 };
 
-
     /// Λ fixed at all τ⁺, no floor: the textbook two-relaxation-time operator.
     #[must_use]
     pub const fn fixed(magic: f64) -> Self {

@@ -48,7 +48,12 @@ pub enum StabilityError {
 /// Design \[K5\].
 /// # Verified by
 /// Claim `neumann-growth-rates`.
-pub fn growth<O: Collision>(collision: &O, tau: f64, u: [f64; 3], k: [f64; 3]) -> Result<f64, StabilityError> {
+pub fn growth<O: Collision>(
+    collision: &O,
+    tau: f64,
+    u: [f64; 3],
+    k: [f64; 3],
+) -> Result<f64, StabilityError> {
     check_tau(tau)?;
     Ok(Linearised::about(collision, tau, u).spectral_radius(k)? - 1.0)
 }
@@ -57,7 +62,11 @@ pub fn growth<O: Collision>(collision: &O, tau: f64, u: [f64; 3], k: [f64; 3]) -
 ///
 /// # Errors
 /// τ⁺ is not above ½, or the eigenvalues did not converge.
-pub fn spectral_radius_max<O: Collision>(collision: &O, tau: f64, u: [f64; 3]) -> Result<Peak, StabilityError> {
+pub fn spectral_radius_max<O: Collision>(
+    collision: &O,
+    tau: f64,
+    u: [f64; 3],
+) -> Result<Peak, StabilityError> {
     check_tau(tau)?;
     peak(&Linearised::about(collision, tau, u), &Search::THOROUGH)
 }

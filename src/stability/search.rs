@@ -131,11 +131,7 @@ struct GridPoint {
 }
 
 /// Spectral radius on the grid k = 2π n / N, one representative of each set of equivalent waves.
-fn coarse(
-    linearised: &Linearised,
-    group: &[Symmetry],
-    n: usize,
-) -> Result<Vec<GridPoint>, StabilityError> {
+fn coarse(linearised: &Linearised, group: &[Symmetry], n: usize) -> Result<Vec<GridPoint>, StabilityError> {
     let points: Vec<[usize; 3]> = (0..n * n * n)
         .map(|p| [p % n, (p / n) % n, p / (n * n)])
         .filter(|&p| canonical(p, n, group) == p)
@@ -239,8 +235,7 @@ fn climb(linearised: &Linearised, start: Peak, width: f64) -> Result<Peak, Stabi
                 simplex[3] = inner;
             } else {
                 for k in 1..4 {
-                    let wave =
-                        std::array::from_fn(|a| 0.5 * (simplex[k].wave[a] + simplex[0].wave[a]));
+                    let wave = std::array::from_fn(|a| 0.5 * (simplex[k].wave[a] + simplex[0].wave[a]));
                     simplex[k] = at(wave)?;
                 }
             }

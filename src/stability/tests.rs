@@ -7,8 +7,15 @@ fn conserves_mass_and_momentum_linearly() {
     for (name, operator) in OPERATORS {
         let linearised = Linearised::about(&operator, 0.6, [0.05, -0.03, 0.08]);
         for j in 0..Q {
-            let column = |weight: fn(usize) -> f64| (0..Q).map(|i| weight(i) * linearised.jacobian()[i][j]).sum::<f64>();
-            let sums = [column(|_| 1.0), column(|i| f64::from(C[i][0])), column(|i| f64::from(C[i][1])), column(|i| f64::from(C[i][2]))];
+            let column = |weight: fn(usize) -> f64| {
+                (0..Q).map(|i| weight(i) * linearised.jacobian()[i][j]).sum::<f64>()
+            };
+            let sums = [
+                column(|_| 1.0),
+                column(|i| f64::from(C[i][0])),
+                column(|i| f64::from(C[i][1])),
+                column(|i| f64::from(C[i][2])),
+            ];
             let expected = [1.0, f64::from(C[j][0]), f64::from(C[j][1]), f64::from(C[j][2])];
             for (sum, expected) in sums.into_iter().zip(expected) {
                 // About 200 operations on numbers of order one.

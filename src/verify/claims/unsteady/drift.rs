@@ -3,6 +3,7 @@
 use core::f64::consts::TAU;
 use std::sync::Arc;
 
+use super::support::central;
 use crate::rheology::Law;
 use crate::solver::run::{Backend, Fields};
 use crate::solver::setup::{BodyForce, FlowPoint, Setup, SolidMotion, WallRule};
@@ -36,12 +37,13 @@ fn agitation(fields: &Fields, mean: [f64; 3]) -> f64 {
     (fields.velocity.iter().map(square).sum::<f64>() / fields.velocity.len() as f64).sqrt()
 }
 
-fn carried(backend: &dyn Backend, mean: [f64; 3]) -> Result<[f64; 3], VerifyError> {
+fn carried(backend: &dyn Backend, mean: [f64; 3], floor: f64) -> Result<[f64; 3], VerifyError> {
     let (n, amplitude, nu) = (12, 5e-3, 0.05);
     let k = TAU / 12.0;
     // As large as the viscous stress at the start: Bingham number 1.
     let sigma0 = nu * amplitude * k;
     let mut setup = Setup::periodic([n; 3], Law::Bingham { sigma0, mu: nu });
+    setup.collision = central(floor);
     setup.initial = Some(Arc::new(move |at| {
         let [x, y, z] = at.map(|i| k * (i as f64 + 0.5));
         let a = amplitude / 3.0_f64.sqrt();
@@ -66,19 +68,28 @@ fn carried(backend: &dyn Backend, mean: [f64; 3]) -> Result<[f64; 3], VerifyErro
 }
 
 fn arrest(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
-    let speeds: &[f64] = if full { &[0.02, 0.05, 0.1] } else { &[0.1] };
     let mut table = Table::new(
         "Root mean square of u - U over the first amplitude (12^3 cells, Bingham number 1)",
-        &["direction", "U", "after 100 steps", "after 1000", "after 2000"],
+        &["direction", "U", "theta", "after 100 steps", "after 1000", "after 2000"],
     );
-    let at_rest = carried(backend, [0.0; 3])?;
-    table.push(vec!["-".into(), 0.0.into(), at_rest[0].into(), at_rest[1].into(), at_rest[2].into()]);
-    let directions = if full { &DIRECTIONS[..] } else { &DIRECTIONS[2..] };
-    for (name, direction) in directions {
-        for &speed in speeds {
-            let seen = carried(backend, unit(*direction).map(|d| d * speed))?;
-            table.push(vec![(*name).into(), speed.into(), seen[0].into(), seen[1].into(), seen[2].into()]);
+    let mut row = |name: &str, direction: [f64; 3], speed: f64, floor: f64| -> Result<(), VerifyError> {
+        let seen = carried(backend, unit(direction).map(|d| d * speed), floor)?;
+        let numbers = [speed, floor, seen[0], seen[1], seen[2]];
+        table.push(std::iter::once(name.into()).chain(numbers.map(Into::into)).collect());
+        Ok(())
+    };
+    row("-", [1.0, 0.0, 0.0], 0.0, 0.05)?;
+    if full {
+        for (name, direction) in DIRECTIONS {
+            for speed in [0.02, 0.05, 0.1] {
+                row(name, direction, speed, 0.05)?;
+            }
         }
+        for floor in [0.1, 0.2, 0.5] {
+            row("(1,0,0)", [1.0, 0.0, 0.0], 0.1, floor)?;
+        }
+    } else {
+        row("(1,1,1)", [1.0; 3], 0.05, 0.05)?;
     }
     Ok(ExhibitData { tables: vec![table], ..ExhibitData::default() })
 }
@@ -128,7 +139,9 @@ fn staircase(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyErr
         "Plug between staircase walls along (1,1,0), 11.3 cells apart",
         &["flow along", "U wanted", "largest u", "spread / u", "Ma2/Re"],
     );
-    for (name, direction) in [("(1,1,0)", [1.0, 1.0, 0.0]), ("(0,0,1)", [0.0, 0.0, 1.0]), ("(1,1,1)", [1.0; 3])] {
+    for (name, direction) in
+        [("(1,1,0)", [1.0, 1.0, 0.0]), ("(0,0,1)", [0.0, 0.0, 1.0]), ("(1,1,1)", [1.0; 3])]
+    {
         for &speed in speeds {
             let [spread, most] = between_stairs(backend, direction, speed)?;
             let reynolds = most * 5.657 / 0.1;

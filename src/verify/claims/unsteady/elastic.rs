@@ -9,7 +9,7 @@ use crate::rheology::Law;
 use crate::solver::run::Backend;
 use crate::solver::setup::{Setup, WallRule, YieldTreatment};
 use crate::verify::claim::{
-    Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError,
+    Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
 };
 use crate::verify::exact::shear_wave::standing_wave_frequency;
 use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
@@ -60,11 +60,47 @@ pub const RINGING: Claim = Claim {
         uncertainty: 0.0,
     },
     metric: Metric::Relative,
-    ladder: Ladder { parameter: "N (cells across)", short: &[16.0, 32.0, 64.0], full: &[16.0, 32.0, 64.0, 128.0] },
-    order: None,
-    tolerance: Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    ladder: Ladder {
+        parameter: "N (cells across)",
+        short: &[16.0, 32.0, 64.0],
+        full: &[16.0, 32.0, 64.0, 128.0],
+    },
+    order: Some(OrderBand { expected: 2.0, band: 0.1, at_least: false }),
+    tolerance: Tolerance {
+        value: 1e-4,
+        at: Rung::Last,
+        because: "lattice dispersion k^2/24 at N = 64, k = pi/N",
+    },
     kind: Kind::PredictedFailure,
     measure: ringing,
+};
+
+fn damping(backend: &dyn Backend, floor: f64) -> Result<Sample, VerifyError> {
+    let (wave, _) = ring(backend, 32, floor)?;
+    let k = PI / 32.0;
+    Ok(Sample::relative(floor, wave.decay, floor * k * k / 3.0))
+}
+
+/// Damping of the elastic waves.
+pub const DAMPING: Claim = Claim {
+    id: "unyielded-damping",
+    title: "Elastic waves in an unyielded solid decay at theta k^2/3: the floor theta is all that damps them.",
+    tags: &["Y3", "K3", "K6"],
+    measures: "decay rate of the lowest shear mode, relative",
+    reference: Reference {
+        source: "third moments that relax with tau- = 1/2 + theta let the stress diffuse at 2 theta/3",
+        uncertainty: 0.0,
+    },
+    metric: Metric::Relative,
+    ladder: Ladder { parameter: "theta", short: &[0.05, 0.2, 0.5], full: &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0] },
+    order: None,
+    tolerance: Tolerance {
+        value: 5e-3,
+        at: Rung::Every,
+        because: "next order of the damping, (theta k)^2/3 at theta = 1 and k = pi/32, and lattice dispersion k^2/24 = 4e-4",
+    },
+    kind: Kind::PredictedFailure,
+    measure: damping,
 };
 
 /// What the floor θ does to the elastic waves.

@@ -22,9 +22,7 @@ fn difference(part: &dyn Run, whole: &dyn Run, parameter: f64) -> Sample {
         [u[0] - v[0], u[1] - v[1], u[2] - v[2]]
     });
     let speed = largest(large.velocity.iter().map(|u| u[0]));
-    let mut sample = Sample::absolute(parameter, largest(apart) / speed, 0.0);
-    sample.reference = 0.0;
-    sample.with("largest speed [lattice units]", speed)
+    Sample::absolute(parameter, largest(apart) / speed, 0.0).with("largest speed [lattice units]", speed)
 }
 
 /// Start-up of a channel (duct: both transverse axes) and of its half (quarter).
@@ -55,7 +53,11 @@ pub const HALF_CHANNEL: Claim = Claim {
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "N (cells across)", short: &[16.0, 32.0], full: &[16.0, 32.0, 64.0] },
     order: None,
-    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "" },
+    tolerance: Tolerance {
+        value: 0.0,
+        at: Rung::Every,
+        because: "the mirrored cell does the same sums in the same order: equal to the last bit",
+    },
     kind: Kind::Verification,
     measure: |backend, n| parts(backend, &[1], n, 500),
 };
@@ -70,7 +72,11 @@ pub const QUARTER_DUCT: Claim = Claim {
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "N (cells across)", short: &[8.0, 16.0], full: &[8.0, 16.0, 32.0] },
     order: None,
-    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "" },
+    tolerance: Tolerance {
+        value: 0.0,
+        at: Rung::Every,
+        because: "the mirrored cell does the same sums in the same order: equal to the last bit",
+    },
     kind: Kind::Verification,
     measure: |backend, n| parts(backend, &[1, 2], n, 500),
 };
@@ -100,9 +106,17 @@ pub const WALL_SET_IN_MOTION: Claim = Claim {
     measures: "u over cells at nu t/H2 = 0.025, 0.05, 0.1, 0.2, relative L2",
     reference: Reference { source: "series (Schlichting & Gersten, §5.2)", uncertainty: 0.0 },
     metric: Metric::L2,
-    ladder: Ladder { parameter: "N (cells across)", short: &[8.0, 16.0, 32.0], full: &[8.0, 16.0, 32.0, 64.0, 128.0] },
+    ladder: Ladder {
+        parameter: "N (cells across)",
+        short: &[8.0, 16.0, 32.0],
+        full: &[8.0, 16.0, 32.0, 64.0, 128.0],
+    },
     order: Some(OrderBand { expected: 2.0, band: 0.15, at_least: false }),
-    tolerance: Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    tolerance: Tolerance {
+        value: 6e-5,
+        at: Rung::Last,
+        because: "0.06/N^2 at N = 32: 1.1 times the scheme constant 0.054 seen on 16 cells",
+    },
     kind: Kind::Verification,
     measure: moving_wall,
 };

@@ -128,7 +128,11 @@ const fn claim(
             full: &[0.0025, 0.005, 0.01, 0.02, 0.04],
         },
         order: None::<OrderBand>,
-        tolerance: Tolerance { value: 1.0, at: Rung::Every, because: "" },
+        tolerance: Tolerance {
+            value: 1.0 / 64.0,
+            at: Rung::Every,
+            because: "second order in the 8 cells of half a plug",
+        },
         kind: Kind::PredictedFailure,
         measure,
     }

@@ -118,6 +118,9 @@ impl Fluid {
 /// Intervals per half channel of the reference; cell centres of N ≤ 512 are nodes of it.
 const REFERENCE_CELLS: usize = 512;
 
+/// Relative L2 uncertainty of the reference (test `uncertainty_of_the_reference`).
+const UNCERTAINTY: f64 = 2e-5;
+
 /// One start-up in lattice units.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
@@ -166,7 +169,8 @@ impl Case {
             let step = (profile.time * h * h / nu).round() as u64;
             run.advance(step - run.step())?;
             computed.push(column(run.as_ref()).iter().map(|u| u / speed).collect());
-            exact.push((0..self.cells).map(|j| profile.velocity_at(from_middle(j, self.cells) / h)).collect());
+            exact
+                .push((0..self.cells).map(|j| profile.velocity_at(from_middle(j, self.cells) / h)).collect());
         }
         Ok((computed, exact))
     }
@@ -201,6 +205,7 @@ const fn claim(
     ladder: Ladder,
     order: Option<OrderBand>,
     tolerance: Tolerance,
+    kind: Kind,
     measure: fn(&dyn Backend, f64) -> Result<Sample, VerifyError>,
 ) -> Claim {
     Claim {
@@ -210,13 +215,13 @@ const fn claim(
         measures: "velocity over cells at t = 1/16, 1/8, 1/4, 1/2 h2/nu_p, relative L2",
         reference: Reference {
             source: "one-dimensional viscoplastic solver (implicit, not regularised), 512 intervals per half width",
-            uncertainty: 5e-6,
+            uncertainty: UNCERTAINTY,
         },
         metric: Metric::L2,
         ladder,
         order,
         tolerance,
-        kind: Kind::Verification,
+        kind,
         measure,
     }
 }
@@ -231,79 +236,97 @@ const TIME: Ladder = Ladder {
     short: &[1.0, 2.0, 4.0],
     full: &[1.0, 2.0, 4.0, 8.0],
 };
+/// Second order with the 1/n = 3 kink of the profile at the edge of the plug still felt on these grids.
+const NEARLY_SECOND: Option<OrderBand> = Some(OrderBand { expected: 2.0, band: 0.3, at_least: false });
+const SUDDEN_BOUND: &str = "8 nu/(h c_s) at the last rung of the short ladder: an elastic wave carries the speed \
+                            F h/(rho c_s), and the plug ends at F h^2/(8 mu)";
+const SMOOTH_BOUND: &str = "50 (nu/(h c_s))^2 plus the steady error 5e-4 (64/N)^2: the elastic part of the shear rate, \
+                            (dsigma/dt)/(rho c_s^2), is at most 4 pi (nu/(h c_s))^2 of the flow at the peak of the \
+                            force, and four times as much soon after the walls yield";
+const SMOOTH_BOUND_HB: &str = "100 (nu/(h c_s))^2 plus the steady error 2.6e-3 (64/N)^2: as for the Bingham fluid, with \
+                               half the shear rate outside the wall region";
+/// First order in the end; on these grids the second-order error of the steady flow is still seen.
 const FIRST: Option<OrderBand> = Some(OrderBand { expected: 1.2, band: 0.3, at_least: false });
 const SECOND: Option<OrderBand> = Some(OrderBand { expected: 2.0, band: 0.2, at_least: false });
 
 /// Bingham, sudden start, refinement at fixed τ.
 pub const BINGHAM_SUDDEN_CELLS: Claim = claim(
     "start-up-sudden-bingham-cells",
-    "T",
+    "A force switched on at once: Bingham channel flow converges at first order only, for elastic waves run through the plug.",
     CELLS,
     FIRST,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    Tolerance { value: 0.043, at: Rung::Last, because: SUDDEN_BOUND },
+    Kind::PredictedFailure,
     |backend, x| in_cells(backend, Fluid::Bingham, Start::Sudden, x),
 );
 /// Bingham, sudden start, order in Δt.
 pub const BINGHAM_SUDDEN_TIME: Claim = claim(
     "start-up-sudden-bingham-time-order",
-    "T",
+    "A force switched on at once: the error of Bingham channel flow is of first order in the time step.",
     TIME,
     FIRST,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    Tolerance { value: 0.054, at: Rung::Last, because: SUDDEN_BOUND },
+    Kind::PredictedFailure,
     |backend, x| in_time(backend, Fluid::Bingham, Start::Sudden, x),
 );
 /// Herschel-Bulkley, sudden start, refinement at fixed τ.
 pub const HERSCHEL_BULKLEY_SUDDEN_CELLS: Claim = claim(
     "start-up-sudden-herschel-bulkley-cells",
-    "T",
+    "A force switched on at once: Herschel-Bulkley channel flow converges at first order only, for elastic waves run through the plug.",
     CELLS,
     FIRST,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    Tolerance { value: 0.043, at: Rung::Last, because: SUDDEN_BOUND },
+    Kind::PredictedFailure,
     |backend, x| in_cells(backend, Fluid::HerschelBulkley, Start::Sudden, x),
 );
 /// Herschel-Bulkley, sudden start, order in Δt.
 pub const HERSCHEL_BULKLEY_SUDDEN_TIME: Claim = claim(
     "start-up-sudden-herschel-bulkley-time-order",
-    "T",
+    "A force switched on at once: the error of Herschel-Bulkley channel flow is of first order in the time step.",
     TIME,
     FIRST,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    Tolerance { value: 0.054, at: Rung::Last, because: SUDDEN_BOUND },
+    Kind::PredictedFailure,
     |backend, x| in_time(backend, Fluid::HerschelBulkley, Start::Sudden, x),
 );
 /// Bingham, smooth start, refinement at fixed τ.
 pub const BINGHAM_SMOOTH_CELLS: Claim = claim(
     "start-up-smooth-bingham-cells",
-    "T",
+    "A force that sets in smoothly: Bingham channel flow converges at second order at fixed tau.",
     CELLS,
     SECOND,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    Tolerance { value: 2.5e-3, at: Rung::Last, because: SMOOTH_BOUND },
+    Kind::Verification,
     |backend, x| in_cells(backend, Fluid::Bingham, Start::Smooth, x),
 );
 /// Bingham, smooth start, order in Δt.
 pub const BINGHAM_SMOOTH_TIME: Claim = claim(
     "start-up-smooth-bingham-time-order",
-    "T",
+    "A force that sets in smoothly: the error of Bingham channel flow is of second order in the time step.",
     TIME,
     SECOND,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    Tolerance { value: 2.5e-3, at: Rung::Last, because: SMOOTH_BOUND },
+    Kind::Verification,
     |backend, x| in_time(backend, Fluid::Bingham, Start::Smooth, x),
 );
 /// Herschel-Bulkley, smooth start, refinement at fixed τ.
 pub const HERSCHEL_BULKLEY_SMOOTH_CELLS: Claim = claim(
     "start-up-smooth-herschel-bulkley-cells",
-    "T",
+    "A force that sets in smoothly: Herschel-Bulkley channel flow converges at second order at fixed tau.",
     CELLS,
-    SECOND,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    NEARLY_SECOND,
+    Tolerance { value: 5.6e-3, at: Rung::Last, because: SMOOTH_BOUND_HB },
+    Kind::Verification,
     |backend, x| in_cells(backend, Fluid::HerschelBulkley, Start::Smooth, x),
 );
 /// Herschel-Bulkley, smooth start, order in Δt.
 pub const HERSCHEL_BULKLEY_SMOOTH_TIME: Claim = claim(
     "start-up-smooth-herschel-bulkley-time-order",
-    "T",
+    "A force that sets in smoothly: the error of Herschel-Bulkley channel flow is of second order in the time step.",
     TIME,
-    SECOND,
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    NEARLY_SECOND,
+    Tolerance { value: 4.6e-3, at: Rung::Last, because: SMOOTH_BOUND_HB },
+    Kind::Verification,
     |backend, x| in_time(backend, Fluid::HerschelBulkley, Start::Smooth, x),
 );
 /// Error against plastic τ, with and without \[B3\].
@@ -314,6 +337,36 @@ pub const ERROR_AGAINST_TAU: Exhibit = Exhibit {
     timed: false,
     run: error_against_tau,
 };
+
+/// Profiles of two starts.
+pub const PROFILES: Exhibit = Exhibit {
+    id: "start-up-profiles",
+    caption: "Bingham start-up on 32 cells at plastic tau 0.65 with the viscosity-independent wall (marks) against \
+              the one-dimensional reference (dashed), at the four times of the claims in h2/nu.",
+    timed: false,
+    run: profiles,
+};
+
+fn profiles(backend: &dyn Backend, _full: bool) -> Result<ExhibitData, VerifyError> {
+    let mut plots = Vec::new();
+    for (start, title) in
+        [(Start::Sudden, "Force switched on at once"), (Start::Smooth, "Force that sets in smoothly")]
+    {
+        let case = Case { fluid: Fluid::Bingham, start, wall: B3, cells: 32, tau: 0.65, floor: 0.05 };
+        let (computed, exact) = case.profiles(backend)?;
+        let mut plot = Plot::new(title, Axis::linear("y / h", ""), Axis::linear("u mu / G h2", ""));
+        for (time, (u, v)) in start.times().iter().zip(computed.iter().zip(&exact)) {
+            let points = |values: &[f64]| -> Vec<[f64; 2]> {
+                let y = |j: usize| from_middle(j, case.cells) / case.h();
+                (case.cells / 2..case.cells).map(|j| [y(j), values[j]]).collect()
+            };
+            plot = plot.with(Series::markers(format!("t = {time}"), points(u)));
+            plot = plot.with(Series::reference(format!("reference, t = {time}"), points(v)));
+        }
+        plots.push(plot);
+    }
+    Ok(ExhibitData { plots, ..ExhibitData::default() })
+}
 
 fn error_against_tau(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
     let cells: &[usize] = if full { &[16, 32, 64] } else { &[16, 32] };
@@ -337,15 +390,45 @@ fn error_against_tau(backend: &dyn Backend, full: bool) -> Result<ExhibitData, V
             for &n in cells {
                 let mut points = Vec::new();
                 for &tau in taus {
-                    let sample = Case { fluid, start, wall, cells: n, tau, floor: 0.05 }.sample(backend, tau)?;
+                    let sample =
+                        Case { fluid, start, wall, cells: n, tau, floor: 0.05 }.sample(backend, tau)?;
                     points.push([tau - 0.5, sample.error]);
                     let mut row = vec![name.into(), n.into(), rule.into(), tau.into(), sample.error.into()];
-                    row.extend(start.times().iter().map(|t| sample.extra[&format!("error at t = {t} h2/nu [-]")].into()));
+                    row.extend(
+                        start
+                            .times()
+                            .iter()
+                            .map(|t| sample.extra[&format!("error at t = {t} h2/nu [-]")].into()),
+                    );
                     table.push(row);
                 }
                 plot = plot.with(Series::line_markers(format!("{name}, N={n}, {rule}"), points));
             }
         }
     }
-    Ok(ExhibitData { tables: vec![table], plots: vec![plot], notes: Vec::new() })
+    let notes = vec![
+        "The slip of [B3] is computed from F, not from F - rho du/dt. Where the flow is still accelerating it \
+         therefore costs accuracy: compare the two walls row by row. In steady flow it removes the wall error."
+            .to_owned(),
+    ];
+    Ok(ExhibitData { tables: vec![table], plots: vec![plot], notes })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uncertainty_of_the_reference() {
+        for fluid in [Fluid::Bingham, Fluid::HerschelBulkley] {
+            for start in [Start::Sudden, Start::Smooth] {
+                let (coarse, fine) = (fluid.solve(start, 256).unwrap(), fluid.solve(start, 512).unwrap());
+                let u: Vec<f64> = coarse.iter().flat_map(|p| p.velocity.iter().copied()).collect();
+                let v: Vec<f64> = fine.iter().flat_map(|p| p.velocity.iter().copied().step_by(2)).collect();
+                let difference = Sample::l2(0.0, &u, &v).error;
+                // Second order: a third of the difference is the error of the finer one.
+                assert!(difference / 3.0 < UNCERTAINTY, "{fluid:?} {start:?} {difference}");
+            }
+        }
+    }
 }

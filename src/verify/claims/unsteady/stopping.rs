@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use super::start_up::Fluid;
 use super::support::{central, largest, no_reference, starting_profile};
+use crate::output::plot::{Axis, Plot, Series};
 use crate::rheology::Law;
 use crate::solver::run::Backend;
 use crate::solver::setup::{BodyForce, Setup, WallRule, YieldTreatment};
@@ -14,6 +15,7 @@ use crate::verify::exact::ExactError;
 use crate::verify::exact::flow_curve::FlowCurve;
 use crate::verify::exact::poiseuille::Channel;
 use crate::verify::exact::viscoplastic_1d::{Flow1d, LowerEnd, Scheme};
+use crate::verify::exhibit::{Exhibit, ExhibitData};
 
 /// Force after the step over the force before: wall stress 2σ0 before, σ0/2 after.
 const AFTER: f64 = 0.25;
@@ -108,11 +110,8 @@ impl Case {
         let steady = Channel { law, half_width: h, force };
         let settle = (0.5 * unit) as u64;
         let mut setup = Setup::channel(self.cells, law, force);
-        setup.force = BodyForce::Stepped {
-            before: [force, 0.0, 0.0],
-            after: [AFTER * force, 0.0, 0.0],
-            at: settle,
-        };
+        setup.force =
+            BodyForce::Stepped { before: [force, 0.0, 0.0], after: [AFTER * force, 0.0, 0.0], at: settle };
         setup.wall_rule = self.wall;
         setup.yielding = self.yielding;
         setup.collision = central(self.floor);
@@ -143,9 +142,7 @@ impl Seen {
         match self.energy.iter().position(|&e| e < level) {
             None => f64::INFINITY,
             Some(0) => 0.0,
-            Some(at) => {
-                ((at - 1) as f64 + fraction(self.energy[at - 1], self.energy[at], level)) / self.unit
-            }
+            Some(at) => ((at - 1) as f64 + fraction(self.energy[at - 1], self.energy[at], level)) / self.unit,
         }
     }
 
@@ -196,9 +193,10 @@ fn clamped_time(backend: &dyn Backend, ratio: f64) -> Result<Sample, VerifyError
     Ok(Sample::relative(ratio, seen.first_below(LEVELS[0]), ideal.energy[0]))
 }
 
+/// The creep is a parabola; the cell centres nearest to the middle of 64 cells lie at 1/64 of h.
 fn clamped_creep(backend: &dyn Backend, ratio: f64) -> Result<Sample, VerifyError> {
     let (_, seen) = clamped(backend, ratio, 4.0)?;
-    Ok(Sample::relative(ratio, seen.left, 1.0 / ratio))
+    Ok(Sample::relative(ratio, seen.left, (1.0 - 1.0 / 4096.0) / ratio))
 }
 
 /// Mean speed, over the force, long after the stop.
@@ -237,60 +235,118 @@ const fn claim(
 /// Stopping time, order.
 pub const TIME: Claim = claim(
     "bingham-stop-time",
-    "A",
+    "The slowing down of a Bingham channel below yield converges at second order.",
     "time from the step until the kinetic energy is 1e-4 of that before, relative",
     Ladder { parameter: "N (cells across)", short: &[16.0, 32.0, 64.0], full: &[16.0, 32.0, 64.0, 128.0] },
     Some(OrderBand { expected: 2.0, band: 0.5, at_least: true }),
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    Tolerance {
+        value: 2e-4,
+        at: Rung::Last,
+        because: "0.82/N^2 at N = 64: 1.1 times the scheme constant 0.75 seen on 16 cells",
+    },
     stopping_time,
 );
 /// H14.
 pub const ENERGY: Claim = claim(
     "bingham-stop-energy",
-    "B",
+    "A Bingham channel whose force drops below yield stops when the ideal fluid does (H14).",
     "time from the step until the kinetic energy is 1e-6 of that before, relative",
     Ladder { parameter: "tau", short: &[0.55, 0.65, 0.8], full: &[0.55, 0.65, 0.8] },
     None,
-    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    Tolerance {
+        value: 5e-4,
+        at: Rung::Every,
+        because: "one time step at tau = 0.8, where the stop takes 2278 steps; H14 itself allows 10 %",
+    },
     energy_gone,
 );
 /// Clamped.
 pub const CLAMPED_TIME: Claim = claim(
     "bingham-stop-clamped-time",
-    "C",
+    "With a clamped viscosity the stop tends to the ideal one as the clamp is raised.",
     "time from the step until the kinetic energy is 1e-3 of that before, relative",
-    Ladder { parameter: "mu_max / mu", short: &[62.5, 125.0, 250.0, 500.0], full: &[62.5, 125.0, 250.0, 500.0, 1000.0] },
+    Ladder {
+        parameter: "mu_max / mu",
+        short: &[62.5, 125.0, 250.0, 500.0],
+        full: &[62.5, 125.0, 250.0, 500.0, 1000.0],
+    },
     Some(OrderBand { expected: 1.0, band: 0.2, at_least: false }),
-    Tolerance { value: 1.0, at: Rung::Last, because: "" },
+    Tolerance {
+        value: 2e-3,
+        at: Rung::Last,
+        because: "mu/mu_max at 500: the clamped material keeps creeping at this fraction of the speed before",
+    },
     clamped_time,
 );
 /// Clamped creep.
 pub const CLAMPED_CREEP: Claim = claim(
     "bingham-stop-clamped-creep",
-    "D",
+    "With a clamped viscosity the stopped channel creeps on at mu/mu_max of its speed.",
     "speed left at 4 T_stop over the plug speed before, relative",
     Ladder { parameter: "mu_max / mu", short: &[125.0, 250.0], full: &[125.0, 250.0, 500.0, 1000.0] },
     None,
-    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    Tolerance {
+        value: 1e-6,
+        at: Rung::Every,
+        because: "what is left of the waves after 4 T_stop; their energy is 1e-12 of that of the creep or less",
+    },
     clamped_creep,
 );
 /// Rest, half-way.
 pub const REST_HALF_WAY: Claim = claim(
     "bingham-stop-rest-half-way",
-    "E",
+    "After the stop an unyielded channel between half-way walls creeps at 2 theta F/rho.",
     "largest speed over F/rho 100 h2/nu after the step, absolute",
     Ladder { parameter: "N (cells across)", short: &[8.0, 16.0], full: &[8.0, 16.0] },
     None,
-    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    Tolerance {
+        value: 1e-7,
+        at: Rung::Every,
+        because: "the density differs from 1 by up to Ma^2 = 1e-6 of the flow before, times 2 theta = 0.1",
+    },
     |backend, n| rest(backend, WallRule::HalfWay, n, 0.1),
 );
 /// Rest, \[B3\].
 pub const REST_B3: Claim = claim(
     "bingham-stop-rest-b3",
-    "F",
+    "After the stop an unyielded channel between viscosity-independent walls is at rest.",
     "largest speed over F/rho 100 h2/nu after the step, absolute",
     Ladder { parameter: "N (cells across)", short: &[8.0, 16.0], full: &[8.0, 16.0] },
     None,
-    Tolerance { value: 1.0, at: Rung::Every, because: "" },
+    Tolerance {
+        value: 1e-12,
+        at: Rung::Every,
+        because: "rounding of a state that has decayed by hundreds of time scales, in units of F/rho",
+    },
     |backend, n| rest(backend, B3, n, 0.0),
 );
+
+/// Kinetic energy against time.
+pub const HISTORY: Exhibit = Exhibit {
+    id: "bingham-stop-history",
+    caption: "Kinetic energy of a Bingham channel (64 cells, plastic tau 0.55) after its force drops below yield: exact \
+              yield, clamped viscosities, and the ideal stopping time.",
+    timed: false,
+    run: history,
+};
+
+fn history(backend: &dyn Backend, _full: bool) -> Result<ExhibitData, VerifyError> {
+    let rest = reference()?.rest;
+    let mut plot =
+        Plot::new("Stop of a Bingham channel", Axis::linear("t / T_stop", ""), Axis::log("KE / KE(0)", ""));
+    let mut add = |name: &str, case: Case| -> Result<(), VerifyError> {
+        let seen = case.run(backend, 2.0 * rest)?;
+        let every = seen.energy.len().div_ceil(200);
+        let point = |(step, energy): (usize, &f64)| [step as f64 / seen.unit / rest, *energy];
+        let points = seen.energy.iter().enumerate().step_by(every).map(point).collect();
+        plot.series.push(Series::line(name, points));
+        Ok(())
+    };
+    add("exact yield", exact(64, 0.55, B3))?;
+    for ratio in [125.0, 500.0, 2000.0] {
+        let yielding = YieldTreatment::ImplicitClamped { tau_min: 0.5, tau_max: 0.5 + 0.05 * ratio };
+        add(&format!("mu_max = {ratio} mu"), Case { yielding, ..exact(64, 0.55, B3) })?;
+    }
+    plot.series.push(Series::reference("ideal T_stop", vec![[1.0, 1e-9], [1.0, 1.0]]));
+    Ok(ExhibitData { plots: vec![plot], ..ExhibitData::default() })
+}

@@ -75,8 +75,7 @@ impl Oscillation {
         let second = (by * aa - ay * ab) / determinant;
         let m = lag as f64;
         let cosine = 0.5 * first / (-second).sqrt();
-        let fitted =
-            Self { frequency: libm::acos(cosine) / m, decay: -0.5 * libm::log(-second) / m };
+        let fitted = Self { frequency: libm::acos(cosine) / m, decay: -0.5 * libm::log(-second) / m };
         (fitted.frequency.is_finite() && fitted.decay.is_finite()).then_some(fitted)
     }
 }
