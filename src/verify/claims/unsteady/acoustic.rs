@@ -134,11 +134,16 @@ fn hydrostatic(backend: &dyn Backend, collision: CollisionChoice, tau: f64) -> R
 
 const TAUS: Ladder = Ladder { parameter: "tau", short: &[0.6, 0.8, 1.0], full: &[0.55, 0.6, 0.8, 1.0, 1.5] };
 
-const fn claim(
+/// Id, title, what is measured, reference.
+struct Words {
     id: &'static str,
     title: &'static str,
     measures: &'static str,
     source: &'static str,
+}
+
+const fn claim(
+    Words { id, title, measures, source }: Words,
     metric: Metric,
     ladder: Ladder,
     tolerance: Tolerance,
@@ -173,10 +178,12 @@ const DECAY: Tolerance = Tolerance {
 
 /// BGK frequency.
 pub const BGK_FREQUENCY: Claim = claim(
-    "ringing-frequency-bgk",
-    "Gravity switched on in a closed column rings at c_s/2H (BGK).",
-    "frequency of the lowest standing wave after its first period, relative",
-    "c_s/(2H)",
+    Words {
+        id: "ringing-frequency-bgk",
+        title: "Gravity switched on in a closed column rings at c_s/2H (BGK).",
+        measures: "frequency of the lowest standing wave after its first period, relative",
+        source: "c_s/(2H)",
+    },
     Metric::Relative,
     TAUS,
     FREQUENCY,
@@ -184,10 +191,12 @@ pub const BGK_FREQUENCY: Claim = claim(
 );
 /// Central-moment frequency.
 pub const CENTRAL_FREQUENCY: Claim = claim(
-    "ringing-frequency-central",
-    "Gravity switched on in a closed column rings at c_s/2H (central moments).",
-    "frequency of the lowest standing wave after its first period, relative",
-    "c_s/(2H)",
+    Words {
+        id: "ringing-frequency-central",
+        title: "Gravity switched on in a closed column rings at c_s/2H (central moments).",
+        measures: "frequency of the lowest standing wave after its first period, relative",
+        source: "c_s/(2H)",
+    },
     Metric::Relative,
     TAUS,
     FREQUENCY,
@@ -195,10 +204,12 @@ pub const CENTRAL_FREQUENCY: Claim = claim(
 );
 /// BGK decay.
 pub const BGK_DECAY: Claim = claim(
-    "ringing-decay-bgk",
-    "The ringing decays at nu k^2 (BGK: bulk viscosity 2 nu/3).",
-    "decay rate of the lowest standing wave after its first period, relative",
-    "nu k^2, k = pi/H (Landau & Lifshitz §79 with bulk viscosity 2 nu/3)",
+    Words {
+        id: "ringing-decay-bgk",
+        title: "The ringing decays at nu k^2 (BGK: bulk viscosity 2 nu/3).",
+        measures: "decay rate of the lowest standing wave after its first period, relative",
+        source: "nu k^2, k = pi/H (Landau & Lifshitz §79 with bulk viscosity 2 nu/3)",
+    },
     Metric::Relative,
     TAUS,
     DECAY,
@@ -206,10 +217,12 @@ pub const BGK_DECAY: Claim = claim(
 );
 /// Central-moment decay.
 pub const CENTRAL_DECAY: Claim = claim(
-    "ringing-decay-central",
-    "The ringing decays at (2 nu/3 + 1/18) k^2 (central moments: the trace relaxes at rate 1).",
-    "decay rate of the lowest standing wave after its first period, relative",
-    "(4 nu/3 + 1/9) k^2/2, k = pi/H (Landau & Lifshitz §79 with bulk viscosity 1/9)",
+    Words {
+        id: "ringing-decay-central",
+        title: "The ringing decays at (2 nu/3 + 1/18) k^2 (central moments: the trace relaxes at rate 1).",
+        measures: "decay rate of the lowest standing wave after its first period, relative",
+        source: "(4 nu/3 + 1/9) k^2/2, k = pi/H (Landau & Lifshitz §79 with bulk viscosity 1/9)",
+    },
     Metric::Relative,
     TAUS,
     DECAY,
@@ -217,10 +230,12 @@ pub const CENTRAL_DECAY: Claim = claim(
 );
 /// Three dimensions.
 pub const CUBE: Claim = claim(
-    "ringing-cube",
-    "A force oblique to a closed cube rings along all three axes at c_s/2H (BGK, free-slip walls).",
-    "worst frequency of the three lowest standing waves, relative",
-    "c_s/(2H)",
+    Words {
+        id: "ringing-cube",
+        title: "A force oblique to a closed cube rings along all three axes at c_s/2H (BGK, free-slip walls).",
+        measures: "worst frequency of the three lowest standing waves, relative",
+        source: "c_s/(2H)",
+    },
     Metric::Relative,
     Ladder { parameter: "H (cells)", short: &[12.0], full: &[12.0, 16.0, 32.0] },
     FREQUENCY,
@@ -228,10 +243,12 @@ pub const CUBE: Claim = claim(
 );
 /// Rest.
 pub const HYDROSTATIC: Claim = claim(
-    "hydrostatic-rest",
-    "A column that starts in hydrostatic equilibrium under the constant force stays at rest.",
-    "largest speed in 2000 steps, lattice units",
-    "rest: the force does not depend on the density, so a linear pressure balances it exactly",
+    Words {
+        id: "hydrostatic-rest",
+        title: "A column that starts in hydrostatic equilibrium under the constant force stays at rest.",
+        measures: "largest speed in 2000 steps, lattice units",
+        source: "rest: the force does not depend on the density, so a linear pressure balances it exactly",
+    },
     Metric::Absolute,
     TAUS,
     Tolerance {

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use super::start_up::{self, Fluid, Start};
 use super::stopping;
-use super::support::{Oscillation, central, from_middle};
+use super::support::{Oscillation, central, column, from_middle, starting_profile};
 use crate::rheology::Law;
 use crate::solver::run::Backend;
 use crate::solver::setup::{Setup, WallRule, YieldTreatment};
@@ -34,10 +34,7 @@ fn ring(backend: &dyn Backend, cells: usize, floor: f64) -> Result<(Oscillation,
         run.advance(1)?;
     }
     let lag = (0.125 * period) as usize;
-    let wave = Oscillation::fit(&samples, lag).ok_or_else(|| VerifyError::Numerics {
-        what: "the fit of the elastic wave",
-        detail: "no damped oscillation".into(),
-    })?;
+    let wave = Oscillation::fit(&samples, lag).ok_or_else(no_fit)?;
     Ok((wave, peak / (force * 0.5 * n * 3.0_f64.sqrt())))
 }
 
@@ -75,10 +72,37 @@ pub const RINGING: Claim = Claim {
     measure: ringing,
 };
 
+/// A standing shear wave of 32 cells in a periodic box of unyielded material: no wall damps it.
+fn free_wave(backend: &dyn Backend, floor: f64) -> Result<Oscillation, VerifyError> {
+    let (n, k) = (32, 2.0 * PI / 32.0);
+    let mut setup = Setup::periodic([1, n, 1], Law::Bingham { sigma0: 1.0, mu: 0.1 });
+    setup.collision = central(floor);
+    setup.initial = Some(starting_profile(n, move |y| 1e-5 * libm::sin(k * y), |_| 0.0));
+    let mut run = backend.start(&setup)?;
+    let period = n as f64 * 3.0_f64.sqrt();
+    let mut samples = Vec::new();
+    for _ in 0..(5.0 * period) as usize {
+        let u = column(run.as_ref());
+        samples.push(u.iter().enumerate().map(|(j, u)| u * libm::sin(k * from_middle(j, n))).sum());
+        run.advance(1)?;
+    }
+    Oscillation::fit(&samples, (0.125 * period) as usize).ok_or_else(no_fit)
+}
+
+fn no_fit() -> VerifyError {
+    VerifyError::Numerics { what: "the fit of the elastic wave", detail: "no damped oscillation".into() }
+}
+
 fn damping(backend: &dyn Backend, floor: f64) -> Result<Sample, VerifyError> {
-    let (wave, _) = ring(backend, 32, floor)?;
-    let k = PI / 32.0;
-    Ok(Sample::relative(floor, wave.decay, floor * k * k / 3.0))
+    let wave = free_wave(backend, floor)?;
+    let k = 2.0 * PI / 32.0;
+    let (held, _) = ring(backend, 32, floor)?;
+    Ok(Sample::relative(floor, wave.decay, floor * k * k / 3.0)
+        .with("frequency / (c_s k) [-]", wave.frequency * 3.0_f64.sqrt() / k)
+        .with(
+            "between [B3] walls 32 cells apart, decay / (theta k2/3) [-]",
+            held.decay / (floor * PI * PI / 3072.0),
+        ))
 }
 
 /// Damping of the elastic waves.
@@ -86,7 +110,7 @@ pub const DAMPING: Claim = Claim {
     id: "unyielded-damping",
     title: "Elastic waves in an unyielded solid decay at theta k^2/3: the floor theta is all that damps them.",
     tags: &["Y3", "K3", "K6"],
-    measures: "decay rate of the lowest shear mode, relative",
+    measures: "decay rate of a standing shear wave of 32 cells in a periodic box, relative",
     reference: Reference {
         source: "third moments that relax with tau- = 1/2 + theta let the stress diffuse at 2 theta/3",
         uncertainty: 0.0,
@@ -94,11 +118,7 @@ pub const DAMPING: Claim = Claim {
     metric: Metric::Relative,
     ladder: Ladder { parameter: "theta", short: &[0.05, 0.2, 0.5], full: &[0.02, 0.05, 0.1, 0.2, 0.5, 1.0] },
     order: None,
-    tolerance: Tolerance {
-        value: 5e-3,
-        at: Rung::Every,
-        because: "next order of the damping, (theta k)^2/3 at theta = 1 and k = pi/32, and lattice dispersion k^2/24 = 4e-4",
-    },
+    tolerance: Tolerance { value: 2e-2, at: Rung::Every, because: "next order in k = pi/16: k^2/2" },
     kind: Kind::PredictedFailure,
     measure: damping,
 };

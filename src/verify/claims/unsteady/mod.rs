@@ -9,6 +9,7 @@ mod elastic;
 mod mirror;
 mod plug;
 mod start_up;
+mod start_up_exhibits;
 mod stopping;
 mod support;
 mod womersley;
@@ -61,8 +62,8 @@ pub static STUDY: Study = Study {
         plug::SKEW,
     ],
     exhibits: &[
-        start_up::PROFILES,
-        start_up::ERROR_AGAINST_TAU,
+        start_up_exhibits::PROFILES,
+        start_up_exhibits::ERROR_AGAINST_TAU,
         stopping::HISTORY,
         elastic::AGAINST_FLOOR,
         drift::ARREST,

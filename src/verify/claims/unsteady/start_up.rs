@@ -4,7 +4,6 @@ use core::f64::consts::TAU;
 use std::sync::OnceLock;
 
 use super::support::{central, column, from_middle, no_reference};
-use crate::output::plot::{Axis, Plot, Series};
 use crate::rheology::Law;
 use crate::solver::run::Backend;
 use crate::solver::setup::{BodyForce, Setup, WallRule};
@@ -13,7 +12,6 @@ use crate::verify::claim::{
 };
 use crate::verify::exact::ExactError;
 use crate::verify::exact::viscoplastic_1d::{Flow1d, LowerEnd, Profile, Scheme};
-use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
 
 /// How the force sets in. Times in h²/ν_p, forces in G.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -121,6 +119,9 @@ const REFERENCE_CELLS: usize = 512;
 /// Relative L2 uncertainty of the reference (test `uncertainty_of_the_reference`).
 const UNCERTAINTY: f64 = 2e-5;
 
+/// Velocities of all cells, one vector per time.
+type Profiles = Vec<Vec<f64>>;
+
 /// One start-up in lattice units.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
@@ -141,7 +142,7 @@ impl Case {
     }
 
     /// Half width.
-    fn h(&self) -> f64 {
+    pub fn h(&self) -> f64 {
         0.5 * self.cells as f64
     }
 
@@ -156,7 +157,7 @@ impl Case {
     }
 
     /// Velocities at the start's times in the unit Gh²/μ_p, one vector per time, and the reference's.
-    fn profiles(&self, backend: &dyn Backend) -> Result<(Vec<Vec<f64>>, Vec<Vec<f64>>), VerifyError> {
+    pub fn profiles(&self, backend: &dyn Backend) -> Result<(Profiles, Profiles), VerifyError> {
         let (nu, h, speed) = (self.nu(), self.h(), self.speed());
         let force = speed * nu / (h * h);
         let mut setup = Setup::channel(self.cells, self.fluid.law(force * h, nu), force);
@@ -186,7 +187,7 @@ impl Case {
     }
 }
 
-const B3: WallRule = WallRule::ViscosityIndependent;
+pub const B3: WallRule = WallRule::ViscosityIndependent;
 
 fn in_cells(backend: &dyn Backend, fluid: Fluid, start: Start, n: f64) -> Result<Sample, VerifyError> {
     Case { fluid, start, wall: B3, cells: n as usize, tau: 0.8, floor: 0.05 }.sample(backend, n)
@@ -329,91 +330,6 @@ pub const HERSCHEL_BULKLEY_SMOOTH_TIME: Claim = claim(
     Kind::Verification,
     |backend, x| in_time(backend, Fluid::HerschelBulkley, Start::Smooth, x),
 );
-/// Error against plastic τ, with and without \[B3\].
-pub const ERROR_AGAINST_TAU: Exhibit = Exhibit {
-    id: "start-up-error-against-tau",
-    caption: "Start-up from rest: error over all times against the plastic relaxation time at fixed N, \
-              with the half-way wall as it stands and with the viscosity-independent wall.",
-    timed: false,
-    run: error_against_tau,
-};
-
-/// Profiles of two starts.
-pub const PROFILES: Exhibit = Exhibit {
-    id: "start-up-profiles",
-    caption: "Bingham start-up on 32 cells at plastic tau 0.65 with the viscosity-independent wall (marks) against \
-              the one-dimensional reference (dashed), at the four times of the claims in h2/nu.",
-    timed: false,
-    run: profiles,
-};
-
-fn profiles(backend: &dyn Backend, _full: bool) -> Result<ExhibitData, VerifyError> {
-    let mut plots = Vec::new();
-    for (start, title) in
-        [(Start::Sudden, "Force switched on at once"), (Start::Smooth, "Force that sets in smoothly")]
-    {
-        let case = Case { fluid: Fluid::Bingham, start, wall: B3, cells: 32, tau: 0.65, floor: 0.05 };
-        let (computed, exact) = case.profiles(backend)?;
-        let mut plot = Plot::new(title, Axis::linear("y / h", ""), Axis::linear("u mu / G h2", ""));
-        for (time, (u, v)) in start.times().iter().zip(computed.iter().zip(&exact)) {
-            let points = |values: &[f64]| -> Vec<[f64; 2]> {
-                let y = |j: usize| from_middle(j, case.cells) / case.h();
-                (case.cells / 2..case.cells).map(|j| [y(j), values[j]]).collect()
-            };
-            plot = plot.with(Series::markers(format!("t = {time}"), points(u)));
-            plot = plot.with(Series::reference(format!("reference, t = {time}"), points(v)));
-        }
-        plots.push(plot);
-    }
-    Ok(ExhibitData { plots, ..ExhibitData::default() })
-}
-
-fn error_against_tau(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
-    let cells: &[usize] = if full { &[16, 32, 64] } else { &[16, 32] };
-    let taus: &[f64] = if full { &[0.55, 0.575, 0.65, 0.8, 1.1, 1.25, 2.0] } else { &[0.65, 0.8, 1.1, 2.0] };
-    let mut table = Table::new(
-        "Relative L2 error of the start-up against plastic tau",
-        &["fluid", "N", "wall", "tau", "all times", "t = 1/16", "t = 1/8", "t = 1/4", "t = 1/2"],
-    );
-    let mut plot = Plot::new(
-        "Start-up error against plastic relaxation time",
-        Axis::log("tau - 1/2", ""),
-        Axis::log("relative L2 error", ""),
-    );
-    for (start, fluid, name) in [
-        (Start::Sudden, Fluid::Bingham, "sudden Bingham"),
-        (Start::Sudden, Fluid::HerschelBulkley, "sudden HB"),
-        (Start::Smooth, Fluid::Bingham, "smooth Bingham"),
-        (Start::Smooth, Fluid::HerschelBulkley, "smooth HB"),
-    ] {
-        for (wall, rule) in [(WallRule::HalfWay, "half-way"), (B3, "[B3]")] {
-            for &n in cells {
-                let mut points = Vec::new();
-                for &tau in taus {
-                    let sample =
-                        Case { fluid, start, wall, cells: n, tau, floor: 0.05 }.sample(backend, tau)?;
-                    points.push([tau - 0.5, sample.error]);
-                    let mut row = vec![name.into(), n.into(), rule.into(), tau.into(), sample.error.into()];
-                    row.extend(
-                        start
-                            .times()
-                            .iter()
-                            .map(|t| sample.extra[&format!("error at t = {t} h2/nu [-]")].into()),
-                    );
-                    table.push(row);
-                }
-                plot = plot.with(Series::line_markers(format!("{name}, N={n}, {rule}"), points));
-            }
-        }
-    }
-    let notes = vec![
-        "The slip of [B3] is computed from F, not from F - rho du/dt. Where the flow is still accelerating it \
-         therefore costs accuracy: compare the two walls row by row. In steady flow it removes the wall error."
-            .to_owned(),
-    ];
-    Ok(ExhibitData { tables: vec![table], plots: vec![plot], notes })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
