@@ -10,7 +10,6 @@ mod memory;
 mod numbers;
 mod print;
 mod scale;
-mod stability;
 mod time_step;
 
 use std::fmt;

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::law::{self, apparent_viscosity, has_plug, plastic_viscosity};
 use super::memory::{Item, items};
 use super::scale::{Scales, norm};
-use super::stability::max_stable_speed;
+use crate::stability::max_stable_speed;
 use super::time_step::{StepRule, reference_viscosity};
 use crate::collision::CollisionChoice;
 use crate::scene::{Rheology, Scene};
@@ -114,7 +114,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
     let plastic = reference_viscosity(scene, scales).unwrap_or(f64::NAN);
     let (tau_min, tau_max) = tau_range(given);
     let tau_min = if tau_min.is_finite() { tau_min } else { units.tau_of_viscosity(plastic) };
-    let stable_speed = max_stable_speed(&setup.collision, tau_min);
+    let stable_speed = max_stable_speed(&setup.collision, tau_min).ok().map(|limit| limit.speed);
     let slip = plug_slip(given);
     let memory = items(setup);
     let bytes_per_cell = memory.iter().map(|item| item.bytes_per_cell).sum::<u64>();

@@ -8,6 +8,7 @@ mod drift;
 mod elastic;
 mod mirror;
 mod plug;
+mod resting_layer;
 mod start_up;
 mod start_up_exhibits;
 mod stopping;
@@ -60,6 +61,10 @@ pub static STUDY: Study = Study {
         stopping::REST_B3,
         plug::DIAGONAL,
         plug::SKEW,
+        resting_layer::ALIGNED,
+        resting_layer::OBLIQUE,
+        resting_layer::HALF_WAY,
+        resting_layer::BED,
     ],
     exhibits: &[
         start_up_exhibits::PROFILES,
@@ -68,6 +73,7 @@ pub static STUDY: Study = Study {
         elastic::AGAINST_FLOOR,
         drift::ARREST,
         drift::STAIRCASE,
+        resting_layer::CURES_TABLE,
     ],
     mutants: &[],
     limits: &[
