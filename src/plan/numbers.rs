@@ -230,8 +230,10 @@ fn plug_slip(given: &Given) -> f64 {
         CollisionChoice::Trt(odd) | CollisionChoice::CentralMoment(odd) => {
             2.0 * odd.floor * given.scales.force * given.units.dt_s / given.units.rho0_kg_per_m3
         }
+        // Third moments without memory: ω⁻ = 1, τ⁻ − ½ = ½.
+        CollisionChoice::Regularised => given.scales.force * given.units.dt_s / given.units.rho0_kg_per_m3,
         // One rate: τ⁻ = τ⁺ has no bound in a plug.
-        CollisionChoice::Bgk | CollisionChoice::Regularised => f64::INFINITY,
+        CollisionChoice::Bgk => f64::INFINITY,
     }
 }
 

@@ -103,10 +103,11 @@ pub struct ClampLimits {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum WallChoice {
-    /// The wall's own.
-    #[default]
+    /// The wall's own: plain half-way bounce-back, whose slip grows with viscosity.
     HalfWay,
-    /// The wall's own minus the known slip, so that the result does not depend on viscosity.
+    /// Corrected link by link for the known slip, so that the result does not depend on viscosity
+    /// and unyielded material rests.
+    #[default]
     ViscosityIndependent,
 }
 
