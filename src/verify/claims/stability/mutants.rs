@@ -24,6 +24,9 @@ impl Collision for Swapped {
         }
         Trt { odd: self.0 }.collide(h, m, exchanged(self.0, omega))
     }
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        Trt { odd: self.0 }.odd_departure(h, m)
+    }
     fn odd_omega<L: Lane>(&self, omega: L) -> L {
         omega
     }
