@@ -1,1 +1,5 @@
-//! (module)
+//! Walls and mirror planes: where each population that arrives in a cell comes from.
+
+pub mod bounce_back;
+pub mod links;
+pub mod wall_slip;

@@ -1,43 +1,104 @@
 //! Collision operators.
 
+pub mod bgk;
+pub mod central_moment;
+pub mod forcing_guo;
+pub mod odd_rate;
+pub mod regularised;
+pub mod trt;
+
 use serde::{Deserialize, Serialize};
 
-/// How the odd (antisymmetric) relaxation time follows the even one \[K2\] \[K3\] \[K5\].
-///
-/// With e = τ⁺ − ½: τ⁻ = ½ + max(Λ · min(1/e, e/e₀²), θ), e₀ = `lowered_below`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct OddRate {
-    /// Λ = (τ⁺ − ½)(τ⁻ − ½); 3/16 puts half-way walls exactly half-way.
-    pub magic: f64,
-    /// θ, least τ⁻ − ½.
-    pub floor: f64,
-    /// e₀: below this τ⁺ − ½ the product Λ is given up for stability \[K5\]; 0 keeps it always.
-    pub lowered_below: f64,
+use crate::lane::Lane;
+use crate::lattice::Q;
+use crate::lattice::moments::Moments;
+
+pub use bgk::Bgk;
+pub use central_moment::CentralMoment;
+pub use odd_rate::OddRate;
+pub use regularised::Regularised;
+pub use trt::Trt;
+
+/// One collision: pre-collision populations to post-collision populations, force included.
+pub trait Collision: Copy + Send + Sync + 'static {
+    /// Post-collision h* = f* − w.
+    ///
+    /// # Arguments
+    /// `h`: populations f − w before collision. `m`: their moments, with the body force.
+    /// `omega`: even relaxation rate ω⁺ in \[0, 2).
+    fn collide<L: Lane>(&self, h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q];
+
+    /// The odd relaxation rate ω⁻ that goes with `omega`.
+    fn odd_omega<L: Lane>(&self, omega: L) -> L;
+
+    /// Odd non-equilibrium of the pre-collision populations, with half the force: what relaxes with
+    /// ω⁻. Its mass and momentum are zero.
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q];
+
+    /// τ⁻ − ½ before any floor: what Λ asks for \[K6\].
+    #[inline(always)]
+    fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
+        L::one() / self.odd_omega(omega) - L::splat(0.5)
+    }
 }
 
 /// The collision operator of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CollisionChoice {
-    /// [K1].
+    /// \[K1\].
     Bgk,
-    /// [K2].
+    /// \[K2\].
     Trt(OddRate),
-    /// [K3].
+    /// \[K3\].
     CentralMoment(OddRate),
-    /// [K4].
+    /// \[K4\].
     Regularised,
-}
-
-impl Default for OddRate {
-    fn default() -> Self {
-        Self { magic: 3.0 / 16.0, floor: 0.05, lowered_below: 0.05 }
-    }
 }
 
 impl Default for CollisionChoice {
     /// The central-moment operator: the only one that un-yields a moving plug \[K3\].
     fn default() -> Self {
         Self::CentralMoment(OddRate::default())
+    }
+}
+
+macro_rules! for_each_collision {
+    ($choice:expr, $name:ident => $body:expr) => {
+        match *$choice {
+            CollisionChoice::Bgk => {
+                let $name = Bgk;
+                $body
+            }
+            CollisionChoice::Trt(odd) => {
+                let $name = Trt { odd };
+                $body
+            }
+            CollisionChoice::CentralMoment(odd) => {
+                let $name = CentralMoment { odd };
+                $body
+            }
+            CollisionChoice::Regularised => {
+                let $name = Regularised;
+                $body
+            }
+        }
+    };
+}
+pub(crate) use for_each_collision;
+
+/// Any operator, chosen per call: for analysis and for rarely used combinations.
+impl Collision for CollisionChoice {
+    fn collide<L: Lane>(&self, h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q] {
+        for_each_collision!(self, operator => operator.collide(h, m, omega))
+    }
+    fn odd_omega<L: Lane>(&self, omega: L) -> L {
+        for_each_collision!(self, operator => operator.odd_omega(omega))
+    }
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        for_each_collision!(self, operator => operator.odd_departure(h, m))
+    }
+    fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
+        for_each_collision!(self, operator => operator.wanted_odd_excess(omega))
     }
 }

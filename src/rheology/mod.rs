@@ -1,19 +1,151 @@
-//! Constitutive laws σ(γ̇) and the local solve [Y3] that turns a stress into a shear rate.
+//! Constitutive laws σ(γ̇) and the local solve \[Y3\] that turns a stress into a shear rate.
+
+mod bingham;
+mod herschel_bulkley;
+mod newtonian;
+mod papanastasiou;
+mod power_law;
+pub mod relaxation;
 
 use serde::{Deserialize, Serialize};
+
+use crate::lane::Lane;
+
+pub use bingham::Bingham;
+pub use herschel_bulkley::HerschelBulkley;
+pub use newtonian::Newtonian;
+pub use papanastasiou::Papanastasiou;
+pub use power_law::PowerLaw;
+
+/// A monotone law σ(γ̇) in lattice units.
+pub trait Rheology: Copy + Send + Sync + 'static {
+    /// The relaxation time, if it is the same at every shear rate \[L6\]: then no shear rate is
+    /// computed. The kinematic viscosity is held constant, at ρ = 1.
+    #[inline(always)]
+    fn constant_tau(&self) -> Option<f64> {
+        None
+    }
+
+    /// σ(γ̇), the magnitude of the deviatoric stress of the flowing fluid (γ̇ > 0).
+    fn stress<L: Lane>(&self, gamma_dot: L) -> L;
+
+    /// The one γ̇ ≥ 0 with q = σ(γ̇) + (ρ/6) γ̇, zero when q does not exceed the yield stress \[Y3\].
+    fn shear_rate<L: Lane>(&self, rho: L, q: L) -> L;
+
+    /// Tangent dynamic viscosity dσ/dγ̇ of the flowing fluid: how much the shear rate changes with the
+    /// stress, hence with the distance from a wall.
+    fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L;
+
+    /// Apparent dynamic viscosity σ(γ̇)/γ̇; infinite or undefined at γ̇ = 0 for yield-stress laws.
+    fn viscosity<L: Lane>(&self, gamma_dot: L) -> L {
+        self.stress(gamma_dot) / gamma_dot
+    }
+}
 
 /// A constitutive law in lattice units (reference density 1, so dynamic = kinematic values).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Law {
     /// σ = μ γ̇.
-    Newtonian { mu: f64 },
+    Newtonian {
+        /// Dynamic viscosity μ.
+        mu: f64,
+    },
     /// σ = σ0 + μ γ̇.
-    Bingham { sigma0: f64, mu: f64 },
+    Bingham {
+        /// Yield stress σ0.
+        sigma0: f64,
+        /// Plastic viscosity μ.
+        mu: f64,
+    },
     /// σ = σ0 + K γ̇ⁿ.
-    HerschelBulkley { sigma0: f64, k: f64, n: f64 },
+    HerschelBulkley {
+        /// Yield stress σ0.
+        sigma0: f64,
+        /// Consistency K.
+        k: f64,
+        /// Flow index n.
+        n: f64,
+    },
     /// σ = K γ̇ⁿ.
-    PowerLaw { k: f64, n: f64 },
+    PowerLaw {
+        /// Consistency K.
+        k: f64,
+        /// Flow index n.
+        n: f64,
+    },
     /// σ = σ0 (1 − exp(−m γ̇)) + K γ̇ⁿ.
-    Papanastasiou { sigma0: f64, k: f64, n: f64, m: f64 },
+    Papanastasiou {
+        /// Yield stress σ0.
+        sigma0: f64,
+        /// Consistency K.
+        k: f64,
+        /// Flow index n.
+        n: f64,
+        /// Growth rate m of the regularisation, in steps.
+        m: f64,
+    },
+}
+
+impl Law {
+    /// Yield stress below which the fluid is rigid; zero for laws that flow at any stress.
+    #[must_use]
+    pub const fn yield_stress(&self) -> f64 {
+        match *self {
+            Self::Bingham { sigma0, .. } | Self::HerschelBulkley { sigma0, .. } => sigma0,
+            Self::Newtonian { .. } | Self::PowerLaw { .. } | Self::Papanastasiou { .. } => 0.0,
+        }
+    }
+}
+
+macro_rules! for_each_law {
+    ($law:expr, $name:ident => $body:expr) => {
+        match *$law {
+            Law::Newtonian { mu } => {
+                let $name = Newtonian { mu };
+                $body
+            }
+            Law::Bingham { sigma0, mu } => {
+                let $name = Bingham { sigma0, mu };
+                $body
+            }
+            Law::HerschelBulkley { sigma0, k, n } => {
+                let $name = HerschelBulkley::new(sigma0, k, n);
+                $body
+            }
+            Law::PowerLaw { k, n } => {
+                let $name = PowerLaw::new(k, n);
+                $body
+            }
+            Law::Papanastasiou { sigma0, k, n, m } => {
+                let $name = Papanastasiou { sigma0, k, n, m };
+                $body
+            }
+        }
+    };
+}
+pub(crate) use for_each_law;
+
+/// Any law, chosen per call: for flows of several fluids.
+impl Rheology for Law {
+    #[inline]
+    fn constant_tau(&self) -> Option<f64> {
+        for_each_law!(self, law => law.constant_tau())
+    }
+    #[inline]
+    fn stress<L: Lane>(&self, gamma_dot: L) -> L {
+        for_each_law!(self, law => law.stress(gamma_dot))
+    }
+    #[inline]
+    fn shear_rate<L: Lane>(&self, rho: L, q: L) -> L {
+        for_each_law!(self, law => law.shear_rate(rho, q))
+    }
+    #[inline]
+    fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
+        for_each_law!(self, law => law.tangent_viscosity(gamma_dot))
+    }
+    #[inline]
+    fn viscosity<L: Lane>(&self, gamma_dot: L) -> L {
+        for_each_law!(self, law => law.viscosity(gamma_dot))
+    }
 }

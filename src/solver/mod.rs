@@ -1,5 +1,10 @@
 //! State, steps and the backends that take them.
+
+pub mod check;
 pub mod fingerprint;
+pub mod initial;
+pub mod physics;
 pub mod plain;
 pub mod run;
 pub mod setup;
+pub mod steady;

@@ -79,7 +79,12 @@ pub struct Fields {
 pub enum StartError {
     /// The backend has no such feature.
     #[error("backend `{backend}` does not have {feature}")]
-    Unsupported { backend: &'static str, feature: &'static str },
+    Unsupported {
+        /// Backend name.
+        backend: &'static str,
+        /// What it lacks.
+        feature: &'static str,
+    },
     /// A per-cell array has the wrong length.
     #[error("`{field}` has {found} entries, but the box has {expected} cells")]
     Length { field: &'static str, found: usize, expected: usize },
@@ -110,11 +115,21 @@ pub struct Stopped {
     pub tau: f64,
 }
 
-/// The two ways a cell fails the guard.
+/// The ways a cell fails the guard.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Runaway {
     /// Density or velocity is not a finite number.
     NotFinite,
+    /// Density is zero or negative.
+    NoDensity {
+        /// Density found (lattice units, reference 1).
+        density: f64,
+    },
     /// Faster than the speed limit (lattice units).
-    TooFast { speed: f64, limit: f64 },
+    TooFast {
+        /// Speed found.
+        speed: f64,
+        /// The limit of the setup.
+        limit: f64,
+    },
 }

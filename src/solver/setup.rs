@@ -50,7 +50,7 @@ pub enum YieldTreatment {
 pub enum WallRule {
     /// [B1] as it stands.
     HalfWay,
-    /// [B3]: the wall velocity minus the known slip, so that it does not depend on viscosity.
+    /// [B3]: corrected for the known slip, so that it does not depend on viscosity.
     ViscosityIndependent,
 }
 
@@ -125,7 +125,7 @@ impl Setup {
             fluids: vec![law],
             yielding: YieldTreatment::Exact,
             collision: CollisionChoice::default(),
-            wall_rule: WallRule::HalfWay,
+            wall_rule: WallRule::ViscosityIndependent,
             stress_source: false,
             force: BodyForce::Constant([0.0; 3]),
             initial: None,
@@ -172,5 +172,43 @@ impl Setup {
     #[must_use]
     pub fn law(&self, cell: usize) -> Law {
         self.fluids[self.fluid_of_cell.get(cell).map_or(0, |&f| usize::from(f))]
+    }
+}
+
+impl BodyForce {
+    /// Force per volume at a step, lattice units.
+    #[must_use]
+    pub fn at(&self, step: u64) -> [f64; 3] {
+        match *self {
+            Self::Constant(force) => force,
+            Self::Oscillating { mean, amplitude, frequency, phase } => {
+                let swing = libm::cos(frequency * step as f64 + phase);
+                std::array::from_fn(|a| mean[a] + amplitude[a] * swing)
+            }
+            Self::Stepped { before, after, at } => {
+                if step < at {
+                    before
+                } else {
+                    after
+                }
+            }
+        }
+    }
+
+    /// Whether the force never changes.
+    #[must_use]
+    pub const fn is_constant(&self) -> bool {
+        matches!(self, Self::Constant(_))
+    }
+
+    /// Largest magnitude the force reaches, lattice units.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        let norm = |f: [f64; 3]| ((f[0] * f[0] + f[1] * f[1]) + f[2] * f[2]).sqrt();
+        match *self {
+            Self::Constant(force) => norm(force),
+            Self::Oscillating { mean, amplitude, .. } => norm(mean) + norm(amplitude),
+            Self::Stepped { before, after, .. } => norm(before).max(norm(after)),
+        }
     }
 }

@@ -14,6 +14,7 @@ pub mod ladder;
 pub mod mutant;
 pub mod order;
 pub mod record;
+pub mod reference_values;
 pub mod study;
 
 use crate::solver::run::Backend;

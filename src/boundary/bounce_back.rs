@@ -1,0 +1,40 @@
+//! Half-way bounce-back \[B1\] and the surface velocity of a moving solid.
+
+use crate::lane::Lane;
+use crate::lattice::W;
+use crate::lattice::equilibrium::dot;
+
+/// f_ī(x, t+1) = f_i*(x) − 6 w_i ρ c_i·u_w
+///
+/// # Arguments
+/// `out`: post-collision population f_i* − w_i leaving towards the wall along c_i, direction `i`.
+/// `rho`: density of the cell. `u_wall`: wall velocity at the link, lattice units.
+/// # Returns
+/// The population that comes back, f_ī − w_i (w_ī = w_i).
+/// # Exactness
+/// + − × only; bit-stable.
+/// # Source
+/// 004 Eqs 3.36–3.37; ERRATA 14, 15 (factor 6; population returns to the cell it left).
+/// # Verified by
+/// Claims `couette-newtonian`, `poiseuille-newtonian-bgk-slip`.
+#[inline(always)]
+pub fn bounce_back<L: Lane>(out: L, i: usize, rho: L, u_wall: &[L; 3]) -> L {
+    out - L::splat(6.0 * W[i]) * (rho * dot(i, u_wall))
+}
+
+/// u = u_p + ω × r
+///
+/// # Arguments
+/// `velocity`: translation. `spin`: angular velocity, radians per step. `arm`: point minus centre.
+/// # Source
+/// 004 Eq 3.38; ERRATA 18 (order of the product).
+/// # Verified by
+/// Claim `taylor-couette`.
+#[must_use]
+pub fn surface_velocity(velocity: [f64; 3], spin: [f64; 3], arm: [f64; 3]) -> [f64; 3] {
+    [
+        velocity[0] + (spin[1] * arm[2] - spin[2] * arm[1]),
+        velocity[1] + (spin[2] * arm[0] - spin[0] * arm[2]),
+        velocity[2] + (spin[0] * arm[1] - spin[1] * arm[0]),
+    ]
+}

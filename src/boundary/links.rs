@@ -1,0 +1,258 @@
+//! The neighbour table: periodic wrap for ordinary cells, a record per cell that touches a wall, a
+//! solid or a mirror plane.
+
+use super::bounce_back::surface_velocity;
+use crate::lattice::{C, Q, W, direction, opposite};
+use crate::solver::setup::{Face, Setup};
+
+/// Where a population comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// Post-collision population `direction` of `cell`.
+    Cell {
+        /// Linear cell index.
+        cell: u32,
+        /// Direction index; differs from the arriving one at a mirror plane \[B2\].
+        direction: u8,
+    },
+    /// Bounced back \[B1\] by a wall moving with this velocity.
+    Wall([f64; 3]),
+}
+
+/// A cell that touches a wall, a solid or a mirror plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoundaryCell {
+    /// Linear index.
+    pub cell: u32,
+    /// Source of each arriving population; entry 0 is the cell itself.
+    pub sources: [Source; Q],
+    /// Unit vector towards the wall, weighted over the links that hit it; zero at a mirror plane.
+    pub normal: [f64; 3],
+    /// Whether any link hits a wall or solid.
+    pub touches_wall: bool,
+}
+
+/// What a cell is for streaming.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CellKind {
+    /// Not computed.
+    Solid,
+    /// All arriving populations come from fluid cells, directly or through a periodic face.
+    Bulk,
+    /// Has a [`BoundaryCell`] record at this position of the list.
+    Boundary(usize),
+}
+
+const SOLID: u32 = u32::MAX;
+const BULK: u32 = u32::MAX - 1;
+/// Most cells that fit the index.
+pub const MAX_CELLS: u64 = BULK as u64 - 1;
+
+/// Neighbour table of a whole box.
+#[derive(Clone, Debug)]
+pub struct Links {
+    kinds: Vec<u32>,
+    boundary: Vec<BoundaryCell>,
+    /// `from[axis][coordinate][c + 1]`: index contribution of the upstream coordinate.
+    from: [Vec<[usize; 3]>; 3],
+    extents: [usize; 3],
+    fluid_cells: u64,
+}
+
+impl Links {
+    /// Builds the table; `setup` must have passed [`crate::solver::check::check`].
+    #[must_use]
+    pub fn new(setup: &Setup) -> Self {
+        let stride = [1, setup.extents[0], setup.extents[0] * setup.extents[1]];
+        let from = std::array::from_fn(|axis| {
+            let n = setup.extents[axis];
+            (0..n)
+                .map(|x| {
+                    let low = if x == 0 { n - 1 } else { x - 1 };
+                    let high = if x + 1 == n { 0 } else { x + 1 };
+                    // Velocity −1 comes from the higher coordinate.
+                    [high * stride[axis], x * stride[axis], low * stride[axis]]
+                })
+                .collect()
+        });
+        let mut links = Self {
+            kinds: vec![BULK; setup.cells()],
+            boundary: Vec::new(),
+            from,
+            extents: setup.extents,
+            fluid_cells: 0,
+        };
+        for cell in 0..setup.cells() {
+            if setup.is_solid(cell) {
+                links.kinds[cell] = SOLID;
+                continue;
+            }
+            links.fluid_cells += 1;
+            if let Some(record) = boundary_cell(setup, cell) {
+                links.kinds[cell] = u32::try_from(links.boundary.len()).unwrap_or(BULK);
+                links.boundary.push(record);
+            }
+        }
+        links
+    }
+
+    /// What a cell is.
+    #[inline(always)]
+    #[must_use]
+    pub fn kind(&self, cell: usize) -> CellKind {
+        match self.kinds[cell] {
+            SOLID => CellKind::Solid,
+            BULK => CellKind::Bulk,
+            slot => CellKind::Boundary(slot as usize),
+        }
+    }
+
+    /// Records of all boundary cells, in cell order.
+    #[must_use]
+    pub fn boundary(&self) -> &[BoundaryCell] {
+        &self.boundary
+    }
+
+    /// Number of fluid cells.
+    #[must_use]
+    pub const fn fluid_cells(&self) -> u64 {
+        self.fluid_cells
+    }
+
+    /// Linear index of x − c_i, periodic in every axis.
+    #[inline(always)]
+    #[must_use]
+    pub fn upstream(&self, [x, y, z]: [usize; 3], i: usize) -> usize {
+        let step = |axis: usize, at: usize| self.from[axis][at][(C[i][axis] + 1) as usize];
+        step(0, x) + step(1, y) + step(2, z)
+    }
+
+    /// The fluid neighbour along an axis, if there is one: the cell that populations come from.
+    #[must_use]
+    pub fn neighbour(&self, cell: usize, axis: usize, positive: bool) -> Option<usize> {
+        let mut c = [0; 3];
+        c[axis] = if positive { -1 } else { 1 };
+        let i = direction(c)?;
+        match self.kind(cell) {
+            CellKind::Solid => None,
+            CellKind::Bulk => {
+                let [nx, ny, _] = self.extents;
+                Some(self.upstream([cell % nx, (cell / nx) % ny, cell / (nx * ny)], i))
+            }
+            CellKind::Boundary(slot) => match self.boundary[slot].sources[i] {
+                Source::Cell { cell, .. } => Some(cell as usize),
+                Source::Wall(_) => None,
+            },
+        }
+    }
+
+    /// Bytes held by the table.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        let axes: usize = self.from.iter().map(Vec::len).sum();
+        (self.kinds.len() * size_of::<u32>()
+            + self.boundary.len() * size_of::<BoundaryCell>()
+            + axes * size_of::<[usize; 3]>()) as u64
+    }
+}
+
+/// The record of a cell, or `None` if every link is ordinary.
+fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> {
+    let at = setup.coordinates(cell);
+    let mut sources = [Source::Cell { cell: cell as u32, direction: 0 }; Q];
+    let mut ordinary = true;
+    let mut towards = [0.0; 3];
+    let mut spread = [0.0; 3];
+    for i in 1..Q {
+        let (source, plain) = resolve(setup, at, i);
+        sources[i] = source;
+        ordinary &= plain;
+        if let Source::Wall(_) = source {
+            // The wall lies along −c_i.
+            for a in 0..3 {
+                towards[a] -= W[i] * f64::from(C[i][a]);
+                spread[a] += W[i] * f64::from(C[i][a] * C[i][a]);
+            }
+        }
+    }
+    let touches_wall = spread.iter().any(|&s| s > 0.0);
+    (!ordinary).then(|| BoundaryCell {
+        cell: cell as u32,
+        sources,
+        normal: if touches_wall { wall_normal(towards, spread) } else { [0.0; 3] },
+        touches_wall,
+    })
+}
+
+/// Unit wall normal of a cell; between two parallel walls, the axis most links cross.
+fn wall_normal(towards: [f64; 3], spread: [f64; 3]) -> [f64; 3] {
+    let length = ((towards[0] * towards[0] + towards[1] * towards[1]) + towards[2] * towards[2]).sqrt();
+    // Link weights are multiples of 1/36: anything smaller is a cancelled sum.
+    if length > 1e-9 {
+        return towards.map(|t| t / length);
+    }
+    let mut axis = 0;
+    for a in 1..3 {
+        if spread[a] > spread[axis] {
+            axis = a;
+        }
+    }
+    std::array::from_fn(|a| if a == axis { 1.0 } else { 0.0 })
+}
+
+/// Source of population `i` arriving at `at`, and whether it is the ordinary upstream cell.
+///
+/// A wall on any axis bounces back; free-slip planes are unfolded: the mirrored component of the
+/// velocity is reversed and the source stays on this side \[B2\].
+fn resolve(setup: &Setup, at: [usize; 3], i: usize) -> (Source, bool) {
+    let mut upstream = at;
+    let mut c = C[i];
+    let mut ordinary = true;
+    let mut wall: Option<[f64; 3]> = None;
+    for axis in 0..3 {
+        let n = setup.extents[axis];
+        let (leaves, side) = match C[i][axis] {
+            1 => (at[axis] == 0, 0),
+            -1 => (at[axis] + 1 == n, 1),
+            _ => continue,
+        };
+        let inside = if C[i][axis] == 1 { at[axis].wrapping_sub(1) } else { at[axis] + 1 };
+        if !leaves {
+            upstream[axis] = inside;
+            continue;
+        }
+        match setup.faces[axis][side] {
+            Face::Periodic => upstream[axis] = if side == 0 { n - 1 } else { 0 },
+            Face::FreeSlip => {
+                c[axis] = -c[axis];
+                ordinary = false;
+            }
+            Face::NoSlip => wall = Some(add(wall, [0.0; 3])),
+            Face::Moving(u) => wall = Some(add(wall, u)),
+        }
+    }
+    if let Some(u) = wall {
+        return (Source::Wall(u), false);
+    }
+    let cell = setup.index(upstream);
+    if setup.is_solid(cell) {
+        return (Source::Wall(solid_velocity(setup, at, i, cell)), false);
+    }
+    let direction = direction(c).unwrap_or(0) as u8;
+    (Source::Cell { cell: cell as u32, direction }, ordinary)
+}
+
+/// A link through the edge of two walls moves with both.
+fn add(wall: Option<[f64; 3]>, u: [f64; 3]) -> [f64; 3] {
+    let v = wall.unwrap_or([0.0; 3]);
+    [v[0] + u[0], v[1] + u[1], v[2] + u[2]]
+}
+
+/// Velocity of a solid's surface at the middle of the link from the cell towards −c_i.
+fn solid_velocity(setup: &Setup, at: [usize; 3], i: usize, cell: usize) -> [f64; 3] {
+    let number = usize::from(setup.solids[cell]);
+    let Some(motion) = setup.solid_motion.get(number - 1) else { return [0.0; 3] };
+    let towards = C[opposite(i)];
+    let arm = std::array::from_fn(|a| (at[a] as f64 + 0.5 + 0.5 * f64::from(towards[a])) - motion.centre[a]);
+    surface_velocity(motion.velocity, motion.spin, arm)
+}

@@ -1,0 +1,51 @@
+//! Consistency of a [`Setup`] before anything is allocated.
+
+use super::run::StartError;
+use super::setup::{Face, Setup};
+use crate::boundary::links::MAX_CELLS;
+
+/// Checks lengths, table entries, faces and size.
+///
+/// # Errors
+/// The first inconsistency found.
+pub fn check(setup: &Setup) -> Result<(), StartError> {
+    let cells = setup.extents.iter().map(|&n| n as u128).product::<u128>();
+    if cells > u128::from(MAX_CELLS) {
+        return Err(StartError::TooManyCells { cells, max: MAX_CELLS });
+    }
+    if cells == 0 || setup.fluids.is_empty() {
+        return Err(StartError::NoFluid);
+    }
+    for (axis, faces) in ['x', 'y', 'z'].into_iter().zip(setup.faces) {
+        if (faces[0] == Face::Periodic) != (faces[1] == Face::Periodic) {
+            return Err(StartError::HalfPeriodic { axis });
+        }
+    }
+    table(setup, "solids", &setup.solids, "solid_motion", setup.solid_motion.len() + 1)?;
+    table(setup, "fluid_of_cell", &setup.fluid_of_cell, "fluids", setup.fluids.len())?;
+    if !setup.solids.is_empty() && setup.solids.iter().all(|&s| s != 0) {
+        return Err(StartError::NoFluid);
+    }
+    Ok(())
+}
+
+/// A per-cell array is empty or has one entry per cell, each inside its table.
+fn table(
+    setup: &Setup,
+    field: &'static str,
+    entries: &[u8],
+    table: &'static str,
+    len: usize,
+) -> Result<(), StartError> {
+    if entries.is_empty() {
+        return Ok(());
+    }
+    let expected = setup.cells();
+    if entries.len() != expected {
+        return Err(StartError::Length { field, found: entries.len(), expected });
+    }
+    match entries.iter().position(|&e| usize::from(e) >= len) {
+        Some(cell) => Err(StartError::UnknownEntry { table, cell, found: usize::from(entries[cell]), len }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,111 @@
+//! The equations of one cell as a set, so that a whole run can be started with one of them wrong.
+//!
+//! [`Standard`] is the physics of the design: every method forwards to the function that holds the
+//! equation. A mutant (see `verify::mutant`) wraps it and overrides exactly one method; the hot loop
+//! is compiled for each, and the right one pays nothing for it.
+
+use super::setup::YieldTreatment;
+use crate::boundary::{bounce_back, wall_slip};
+use crate::collision::Collision;
+use crate::lane::Lane;
+use crate::lattice::Q;
+use crate::lattice::moments::{self, Moments};
+use crate::rheology::{Rheology, relaxation};
+
+/// One cell's equations.
+pub trait Physics: Clone + Send + Sync + 'static {
+    /// ρ, u, Q from populations and force \[L4\] \[Y1\].
+    #[inline(always)]
+    fn moments<L: Lane>(&self, h: &[L; Q], force: &[L; 3]) -> Moments<L> {
+        moments::moments(h, force)
+    }
+
+    /// q = √(½ dev Q : dev Q) \[Y1\].
+    #[inline(always)]
+    fn stress_magnitude<L: Lane>(&self, m: &Moments<L>) -> L {
+        moments::magnitude(&moments::deviator(&m.q))
+    }
+
+    /// Whether ω⁺ is the same everywhere and always, so that no stress magnitude is computed.
+    fn constant_omega(&self) -> Option<f64>;
+
+    /// ω⁺ of a cell holding fluid number `fluid` \[Y3\] \[Y4\].
+    fn omega<L: Lane>(&self, fluid: u8, rho: L, q: L, previous: L) -> L;
+
+    /// ω⁻ that goes with ω⁺ \[K2\] \[K3\].
+    fn odd_omega<L: Lane>(&self, omega: L) -> L;
+
+    /// τ⁻ − ½ that Λ asks for before the floor \[K6\]; the one in force without a floor.
+    fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L;
+
+    /// Post-collision populations \[K1\]–\[K4\].
+    fn collide<L: Lane>(&self, h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q];
+
+    /// Half-way bounce-back \[B1\].
+    #[inline(always)]
+    fn wall<L: Lane>(&self, out: L, i: usize, rho: L, u_wall: &[L; 3]) -> L {
+        bounce_back::bounce_back(out, i, rho, u_wall)
+    }
+
+    /// 1/(dσ/dγ̇) of a cell, zero where rigid \[B3\].
+    fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L;
+
+    /// Odd non-equilibrium that relaxes with ω⁻ \[B3\].
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q];
+
+    /// Velocity that the curvature of the profile adds over half a cell \[B3\].
+    #[inline(always)]
+    fn curvature_velocity<L: Lane>(&self, tangential: &[L; 3], fluidity: L) -> [L; 3] {
+        wall_slip::curvature_velocity(tangential, fluidity)
+    }
+}
+
+/// The physics of the design, for one law type and one collision type.
+#[derive(Clone, Debug)]
+pub struct Standard<R, C> {
+    /// The laws, by fluid number.
+    pub laws: Vec<R>,
+    /// How τ follows from the law.
+    pub treatment: YieldTreatment,
+    /// The collision operator.
+    pub collision: C,
+}
+
+impl<R: Rheology, C: Collision> Physics for Standard<R, C> {
+    fn constant_omega(&self) -> Option<f64> {
+        match self.laws.as_slice() {
+            [law] => law.constant_tau().map(|tau| 1.0 / tau),
+            _ => None,
+        }
+    }
+
+    #[inline(always)]
+    fn omega<L: Lane>(&self, fluid: u8, rho: L, q: L, previous: L) -> L {
+        relaxation::omega(&self.laws[usize::from(fluid)], self.treatment, rho, q, previous)
+    }
+
+    #[inline(always)]
+    fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L {
+        relaxation::tangent_fluidity(&self.laws[usize::from(fluid)], self.treatment, rho, omega, q)
+    }
+
+    #[inline(always)]
+    fn odd_omega<L: Lane>(&self, omega: L) -> L {
+        self.collision.odd_omega(omega)
+    }
+
+    #[inline(always)]
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        self.collision.odd_departure(h, m)
+    }
+
+    #[inline(always)]
+    fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
+        self.collision.wanted_odd_excess(omega)
+    }
+
+    #[inline(always)]
+    fn collide<L: Lane>(&self, h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q] {
+        self.collision.collide(h, m, omega)
+    }
+}

@@ -1,0 +1,136 @@
+//! What one cell does in one step. Everything here reads the previous array only.
+
+use crate::boundary::links::{BoundaryCell, CellKind, Links, Source};
+use crate::boundary::wall_slip::{link_correction, pressure_slope, stress_source, tangential};
+use crate::lattice::moments::{Moments, add_third, density_excess, deviator};
+use crate::lattice::{C, Q, opposite};
+use crate::solver::physics::Physics;
+use crate::solver::run::Runaway;
+
+/// Populations of one cell, f − w.
+pub type Cell = [f64; Q];
+
+/// A cell's moments and its even relaxation rate.
+pub struct State {
+    /// Moments before collision.
+    pub m: Moments<f64>,
+    /// ω⁺.
+    pub omega: f64,
+}
+
+/// Moments and ω⁺ of a cell before collision \[L4\] \[Y1\]–\[Y4\].
+#[inline(always)]
+pub fn state<P: Physics>(physics: &P, h: &Cell, force: &[f64; 3], fluid: u8, previous: f64) -> State {
+    let m = physics.moments(h, force);
+    let omega = match physics.constant_omega() {
+        Some(omega) => omega,
+        None => physics.omega(fluid, m.rho, physics.stress_magnitude(&m), previous),
+    };
+    State { m, omega }
+}
+
+/// The guard: density and velocity are finite, density positive, speed within the limit.
+#[inline(always)]
+pub fn runaway(m: &Moments<f64>, limit: f64) -> Option<Runaway> {
+    let speed2 = (m.u[0] * m.u[0] + m.u[1] * m.u[1]) + m.u[2] * m.u[2];
+    if speed2 <= limit * limit && m.rho > 0.0 {
+        return None;
+    }
+    Some(if !(speed2.is_finite() && m.rho.is_finite()) {
+        Runaway::NotFinite
+    } else if m.rho <= 0.0 {
+        Runaway::NoDensity { density: m.rho }
+    } else {
+        Runaway::TooFast { speed: speed2.sqrt(), limit }
+    })
+}
+
+/// F − ∇p of a cell, the pressure from the densities around it \[B3\] \[K6\].
+pub fn residual_force(f: &[Cell], links: &Links, cell: usize, force: &[f64; 3]) -> [f64; 3] {
+    let rho = |at: usize| density_excess(&f[at]);
+    std::array::from_fn(|axis| {
+        let low = links.neighbour(cell, axis, false).map(rho);
+        let high = links.neighbour(cell, axis, true).map(rho);
+        force[axis] - pressure_slope(low, rho(cell), high)
+    })
+}
+
+/// What the viscosity-independent wall subtracts from the populations leaving a boundary cell that
+/// holds fluid number `fluid` \[B3\]; `sourced`: whether \[K6\] acts.
+pub fn wall_correction<P: Physics>(
+    physics: &P,
+    record: &BoundaryCell,
+    h: &Cell,
+    state: &State,
+    residual: &[f64; 3],
+    fluid: u8,
+    sourced: bool,
+) -> Cell {
+    let is_wall = |i: usize| matches!(record.sources[opposite(i)], Source::Wall(_));
+    let mut excess = [0.0; Q];
+    if sourced {
+        add_stress_source(physics, &mut excess, state, residual);
+    }
+    let keep = 2.0 - physics.odd_omega(state.omega);
+    let departure = physics.odd_departure(h, &state.m);
+    for i in 1..Q {
+        excess[i] += keep * departure[i];
+    }
+    let mut correction = link_correction(&excess, is_wall);
+    let q = physics.stress_magnitude(&state.m);
+    let fluidity = physics.tangent_fluidity(fluid, state.m.rho, state.omega, q);
+    let curved = physics.curvature_velocity(&tangential(residual, &record.normal), fluidity);
+    for i in 1..Q {
+        if is_wall(i) {
+            correction[i] -= physics.wall(0.0, i, state.m.rho, &curved);
+        }
+    }
+    correction
+}
+
+/// Adds the source of \[K6\] to post-collision populations.
+pub fn add_stress_source<P: Physics>(physics: &P, post: &mut Cell, state: &State, residual: &[f64; 3]) {
+    let wanted = physics.wanted_odd_excess(state.omega);
+    let odd_omega = physics.odd_omega(state.omega);
+    add_third(post, &stress_source(residual, &deviator(&state.m.q), wanted, odd_omega));
+}
+
+/// Streaming into one cell: f_i(x, t+1) = f_i*(x − c_i, t), or what the boundary sends back.
+#[inline(always)]
+pub fn gather<P: Physics>(
+    physics: &P,
+    post: &[Cell],
+    links: &Links,
+    corrections: &[Cell],
+    cell: usize,
+    at: [usize; 3],
+) -> Cell {
+    match links.kind(cell) {
+        CellKind::Solid => [0.0; Q],
+        CellKind::Bulk => std::array::from_fn(|i| post[links.upstream(at, i)][i]),
+        CellKind::Boundary(slot) => {
+            gather_boundary(physics, post, &links.boundary()[slot], corrections.get(slot))
+        }
+    }
+}
+
+/// Streaming into a cell that touches a wall, a solid or a mirror plane \[B1\]–\[B3\].
+fn gather_boundary<P: Physics>(
+    physics: &P,
+    post: &[Cell],
+    record: &BoundaryCell,
+    correction: Option<&Cell>,
+) -> Cell {
+    let own = &post[record.cell as usize];
+    let rho = 1.0 + density_excess(own);
+    std::array::from_fn(|i| match record.sources[i] {
+        Source::Cell { cell, direction } if i > 0 => post[cell as usize][usize::from(direction)],
+        Source::Cell { .. } => own[0],
+        Source::Wall(u) => {
+            let out = opposite(i);
+            debug_assert_eq!(C[out][0], -C[i][0]);
+            let leaving = own[out] - correction.map_or(0.0, |c| c[out]);
+            physics.wall(leaving, out, rho, &u)
+        }
+    })
+}
