@@ -12,9 +12,11 @@ fn folder(name: &str) -> std::path::PathBuf {
     std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
 }
 
-/// Values with all bits in use, so that a lost digit shows.
+/// Values with all bits in use, so that a lost digit shows. vtkio looks for tags and entities in
+/// raw data too (a fault of that reader), so values with a byte `<` or `&` are left out.
 fn noise(n: usize) -> Vec<f64> {
-    (0..n).map(|k| libm::sin(1.0 + k as f64) * libm::exp(k as f64 - 12.0)).collect()
+    let all = (0..).map(|k| f64::from(k) - 20.0).map(|k| libm::sin(k) * libm::exp(0.1 * k));
+    all.filter(|x| !x.to_le_bytes().iter().any(|b| b"<&".contains(b))).take(n).collect()
 }
 
 #[test]
