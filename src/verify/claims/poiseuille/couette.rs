@@ -95,7 +95,7 @@ pub const ALL_LAWS: Claim = Claim {
         let steady = run_steady(backend, &setup, 1e-12, 1000, 200_000)?;
         let exact = PlaneCouette { law, wall_speed: 1.0, gap: 2.0 };
         let stresses: Vec<f64> = steady.fields.stress.iter().map(|s| s[3] / scale.stress).collect();
-        let mut sample = Sample::linf(number, &stresses, &vec![exact.stress(); N]);
+        let mut sample = Sample::linf(number, &stresses, &[exact.stress(); N]);
         let profile: Vec<f64> = (0..N).map(|j| speed * ((j as f64 + 0.5) / N as f64 - 0.25)).collect();
         let velocity = Sample::linf(number, &steady.velocity(0), &profile).error;
         // Not f64::max, which would drop a NaN.
