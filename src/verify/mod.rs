@@ -2,3 +2,4 @@
 pub mod claim;
 pub mod claims;
 pub mod exact;
+pub mod reference_values;
