@@ -1,1 +1,53 @@
-//! (module)
+//! What a run leaves behind: fields for ParaView, time series, pictures, a summary.
+//!
+//! Every file is written whole or not at all ([`atomic`]).
+
+use std::path::PathBuf;
+
+pub mod atomic;
+pub mod csv;
+pub mod picture;
+pub mod plot;
+pub mod progress;
+pub mod pvd;
+pub mod summary;
+pub mod svg;
+mod ticks;
+pub mod vti;
+
+/// Why an output could not be produced.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// The operating system refused.
+    #[error("cannot {doing} {}: {source}", path.display())]
+    Io { path: PathBuf, doing: &'static str, source: std::io::Error },
+    /// An array or a row does not have the length its container asks for.
+    #[error("`{what}` has {found} entries; {expected} are needed")]
+    Length { what: String, found: usize, expected: usize },
+    /// A file that should be read back is not what it claims to be.
+    #[error("{} line {line}: {problem}", path.display())]
+    Malformed { path: PathBuf, line: usize, problem: String },
+    /// JSON could not be written or read.
+    #[error("{}: {source}", path.display())]
+    Json { path: PathBuf, source: serde_json::Error },
+    /// The drawing library refused.
+    #[error("figure `{title}`: {detail}")]
+    Draw { title: String, detail: String },
+}
+
+/// Text made safe for XML content and attribute values.
+pub(crate) fn xml_escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            // Other control characters are not allowed in XML at all.
+            c if c.is_control() && c != '\n' && c != '\t' => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::record::number;
 use crate::solver::run::{Backend, StartError, Stopped};
 
 /// One checkable statement.
@@ -117,17 +118,80 @@ pub enum Kind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// The rung.
+    #[serde(with = "number")]
     pub parameter: f64,
     /// Measured number (or norm of the measured field).
+    #[serde(with = "number")]
     pub computed: f64,
     /// Reference number (or norm of the reference field).
+    #[serde(with = "number")]
     pub reference: f64,
     /// The error in the claim's metric.
+    #[serde(with = "number")]
     pub error: f64,
     /// Further numbers worth a column, by name with unit. Bit-compared with the golden record
     /// like the rest: no wall-clock times here.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(default, with = "number::map", skip_serializing_if = "BTreeMap::is_empty")]
     pub extra: BTreeMap<String, f64>,
+}
+
+impl Sample {
+    /// One number against its reference, \|computed − reference\| / \|reference\|.
+    #[must_use]
+    pub fn relative(parameter: f64, computed: f64, reference: f64) -> Self {
+        let error = (computed - reference).abs() / reference.abs();
+        Self { parameter, computed, reference, error, extra: BTreeMap::new() }
+    }
+
+    /// One number against its reference, \|computed − reference\|.
+    #[must_use]
+    pub fn absolute(parameter: f64, computed: f64, reference: f64) -> Self {
+        Self { parameter, computed, reference, error: (computed - reference).abs(), extra: BTreeMap::new() }
+    }
+
+    /// A field against its reference, ‖computed − reference‖₂ / ‖reference‖₂; `computed` and
+    /// `reference` become the root mean squares. Fields of different length give a NaN error.
+    #[must_use]
+    pub fn l2(parameter: f64, computed: &[f64], reference: &[f64]) -> Self {
+        let squares = |v: &[f64]| v.iter().fold(0.0, |s, x| s + x * x);
+        let differences = computed.iter().zip(reference).fold(0.0, |s, (a, b)| s + (a - b) * (a - b));
+        let same = computed.len() == reference.len();
+        let error = if same { (differences / squares(reference)).sqrt() } else { f64::NAN };
+        let mean = |v: &[f64]| (squares(v) / v.len() as f64).sqrt();
+        Self {
+            parameter,
+            computed: mean(computed),
+            reference: mean(reference),
+            error,
+            extra: BTreeMap::new(),
+        }
+    }
+
+    /// A field against its reference, max\|computed − reference\| / max\|reference\|; `computed` and
+    /// `reference` become the largest absolute values. Fields of different length give a NaN error.
+    #[must_use]
+    pub fn linf(parameter: f64, computed: &[f64], reference: &[f64]) -> Self {
+        // A NaN anywhere must end in a NaN error, so the comparison lets it through.
+        let greatest = |m: f64, x: f64| if x.abs() <= m { m } else { x.abs() };
+        let largest = |v: &[f64]| v.iter().fold(0.0, |m, &x| if f64::is_nan(m) { m } else { greatest(m, x) });
+        let differences: Vec<f64> = computed.iter().zip(reference).map(|(a, b)| a - b).collect();
+        let same = computed.len() == reference.len();
+        let error = if same { largest(&differences) / largest(reference) } else { f64::NAN };
+        Self {
+            parameter,
+            computed: largest(computed),
+            reference: largest(reference),
+            error,
+            extra: BTreeMap::new(),
+        }
+    }
+
+    /// Adds a further number, named with its unit.
+    #[must_use]
+    pub fn with(mut self, name: &str, value: f64) -> Self {
+        self.extra.insert(name.to_owned(), value);
+        self
+    }
 }
 
 /// Why a claim could not be evaluated.
@@ -150,5 +214,29 @@ pub enum VerifyError {
 impl From<Stopped> for VerifyError {
     fn from(stopped: Stopped) -> Self {
         Self::Stopped(stopped)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn norms_of_known_fields() {
+        let s = Sample::l2(1.0, &[3.0, 5.0], &[3.0, 4.0]);
+        assert_eq!((s.error, s.reference), (0.2, 12.5_f64.sqrt()));
+        assert_eq!(Sample::linf(1.0, &[3.0, -5.0], &[3.0, -4.0]).error, 0.25);
+        assert_eq!(Sample::relative(1.0, -1.5, -2.0).error, 0.25);
+        assert_eq!(Sample::absolute(1.0, -1.5, -2.0).error, 0.5);
+    }
+
+    #[test]
+    fn nan_and_unequal_lengths_never_look_right() {
+        for field in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            assert!(Sample::linf(1.0, &field, &[1.0, 1.0]).error.is_nan());
+            assert!(Sample::l2(1.0, &field, &[1.0, 1.0]).error.is_nan());
+        }
+        assert!(Sample::l2(1.0, &[1.0], &[1.0, 1.0]).error.is_nan());
+        assert!(Sample::linf(1.0, &[1.0], &[1.0, 1.0]).error.is_nan());
     }
 }

@@ -1,1 +1,18 @@
-//! All claims, by topic.
+//! The claims, one file per study.
+
+use super::study::Study;
+
+pub mod moments;
+pub mod poiseuille;
+pub mod stability;
+pub mod unsteady;
+pub mod viscosity;
+
+static STUDIES: [&Study; 5] =
+    [&moments::STUDY, &viscosity::STUDY, &poiseuille::STUDY, &unsteady::STUDY, &stability::STUDY];
+
+/// All studies, in the order of the report.
+#[must_use]
+pub fn studies() -> &'static [&'static Study] {
+    &STUDIES
+}

@@ -1,0 +1,74 @@
+//! Files that appear whole or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::OutputError;
+
+/// Distinguishes temporary files written at the same time by one process.
+static COUNTER: AtomicU64 = AtomicU64::new(0);
+
+/// Writes `bytes` to `path`: into a temporary file of the same folder, flushed to the disk,
+/// then renamed. A reader sees the old file or the new one, never a part. Missing folders are made.
+///
+/// # Errors
+/// [`OutputError::Io`] naming the path; the temporary file is removed.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    let io = |doing| {
+        let path = path.to_path_buf();
+        move |source| OutputError::Io { path, doing, source }
+    };
+    if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
+        fs::create_dir_all(folder).map_err(io("create the folder of"))?;
+    }
+    let temporary = temporary_name(path);
+    let outcome = write_and_rename(&temporary, path, bytes);
+    if outcome.is_err() {
+        // The first error is the one worth reporting; a leftover file is only untidy.
+        let _ = fs::remove_file(&temporary);
+    }
+    outcome.map_err(io("write"))
+}
+
+fn temporary_name(path: &Path) -> PathBuf {
+    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let count = COUNTER.fetch_add(1, Ordering::Relaxed);
+    path.with_file_name(format!(".{name}.{}-{count}.part", std::process::id()))
+}
+
+fn write_and_rename(temporary: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(temporary)?;
+    file.write_all(bytes)?;
+    file.sync_all()?;
+    drop(file);
+    fs::rename(temporary, path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn replaces_whole_file_and_leaves_nothing_else() {
+        let folder = std::env::temp_dir().join(format!("lahar-atomic-{}", std::process::id()));
+        let path = folder.join("a/b.txt");
+        write(&path, b"first, and longer").unwrap();
+        write(&path, b"second").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"second");
+        assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn failure_names_the_path_and_leaves_no_part() {
+        let folder = std::env::temp_dir().join(format!("lahar-atomic-bad-{}", std::process::id()));
+        let path = folder.join("is_a_folder");
+        fs::create_dir_all(path.join("x")).unwrap();
+        let error = write(&path, b"data").unwrap_err();
+        assert!(error.to_string().contains("is_a_folder"), "{error}");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}

@@ -1,0 +1,123 @@
+//! `summary.json`: what a finished run was, in numbers.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::{OutputError, atomic};
+use crate::solver::fingerprint::Fingerprint;
+use crate::verify::record::number;
+
+/// The run at its end.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Name of the scene.
+    pub scene: String,
+    /// [`hash`] of the scene file's bytes.
+    pub scene_hash: String,
+    /// Version of lahar.
+    pub version: String,
+    /// Backend that ran it.
+    pub backend: String,
+    /// Worker threads.
+    pub threads: usize,
+    /// Steps taken.
+    pub steps: u64,
+    /// Simulated time.
+    #[serde(with = "number")]
+    pub time_s: f64,
+    /// Wall-clock time of the stepping.
+    #[serde(with = "number")]
+    pub wall_seconds: f64,
+    /// Million updates of fluid cells per second (MLUPS).
+    #[serde(with = "number")]
+    pub million_updates_per_second: f64,
+    /// Relative change of total mass since the start.
+    #[serde(with = "number")]
+    pub mass_residual: f64,
+    /// Density relative to the reference density.
+    pub density: Extrema,
+    /// Speed.
+    pub speed_m_per_s: Extrema,
+    /// Hash and digest of the final state.
+    pub fingerprint: Fingerprint,
+    /// Why a guard stopped the run, if one did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stopped: Option<String>,
+}
+
+/// Range of a field over the fluid cells.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Extrema {
+    /// Least value.
+    #[serde(with = "number")]
+    pub least: f64,
+    /// Greatest value.
+    #[serde(with = "number")]
+    pub greatest: f64,
+}
+
+impl Extrema {
+    /// Range of the values; (∞, −∞) if there is none. NaN spreads, so that it shows.
+    #[must_use]
+    pub fn of(values: impl Iterator<Item = f64>) -> Self {
+        let none = Self { least: f64::INFINITY, greatest: f64::NEG_INFINITY };
+        values.fold(none, |e, v| Self {
+            least: if e.least <= v || e.least.is_nan() { e.least } else { v },
+            greatest: if e.greatest >= v || e.greatest.is_nan() { e.greatest } else { v },
+        })
+    }
+}
+
+impl Summary {
+    /// Writes the summary as indented JSON.
+    ///
+    /// # Errors
+    /// I/O.
+    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+        let json = |source| OutputError::Json { path: path.to_path_buf(), source };
+        let mut text = serde_json::to_string_pretty(self).map_err(json)?;
+        text.push('\n');
+        atomic::write(path, text.as_bytes())
+    }
+
+    /// Reads a summary.
+    ///
+    /// # Errors
+    /// I/O, or not a summary.
+    pub fn read(path: &Path) -> Result<Self, OutputError> {
+        let text = std::fs::read_to_string(path).map_err(|source| OutputError::Io {
+            path: path.to_path_buf(),
+            doing: "read",
+            source,
+        })?;
+        serde_json::from_str(&text).map_err(|source| OutputError::Json { path: path.to_path_buf(), source })
+    }
+}
+
+/// FNV-1a (64 bit) of some bytes, 16 hex digits.
+#[must_use]
+pub fn hash(bytes: &[u8]) -> String {
+    let fnv = |h: u64, &b: &u8| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3);
+    format!("{:016x}", bytes.iter().fold(0xcbf2_9ce4_8422_2325, fnv))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hash_is_the_published_fnv1a() {
+        // Test vectors of the FNV reference code (draft-eastlake-fnv, appendix C).
+        assert_eq!(hash(b""), "cbf29ce484222325");
+        assert_eq!(hash(b"a"), "af63dc4c8601ec8c");
+        assert_eq!(hash(b"foobar"), "85944171f73967e8");
+    }
+
+    #[test]
+    fn extrema_show_nan() {
+        let e = Extrema::of([1.0, -2.0, 3.0].into_iter());
+        assert_eq!((e.least, e.greatest), (-2.0, 3.0));
+        assert!(Extrema::of([1.0, f64::NAN, 3.0].into_iter()).greatest.is_nan());
+    }
+}

@@ -1,0 +1,177 @@
+//! Fields as VTK ImageData (`.vti`): cell data, appended raw little-endian.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use super::{OutputError, atomic, xml_escape};
+
+/// One picture of the box: borrowed arrays with one entry per cell, x fastest.
+pub struct Image<'a> {
+    extents: [usize; 3],
+    origin_m: [f64; 3],
+    spacing_m: f64,
+    time_s: Option<f64>,
+    arrays: Vec<Array<'a>>,
+}
+
+struct Array<'a> {
+    name: String,
+    values: Values<'a>,
+}
+
+enum Values<'a> {
+    Scalar(&'a [f64]),
+    Vector(&'a [[f64; 3]]),
+    Tensor(&'a [[f64; 6]]),
+    Mask(&'a [u8]),
+}
+
+impl Values<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Self::Scalar(v) => v.len(),
+            Self::Vector(v) => v.len(),
+            Self::Tensor(v) => v.len(),
+            Self::Mask(v) => v.len(),
+        }
+    }
+
+    fn kind(&self) -> &'static str {
+        if matches!(self, Self::Mask(_)) { "UInt8" } else { "Float64" }
+    }
+
+    /// Component count and the names VTK shows for them.
+    fn components(&self) -> &'static [&'static str] {
+        match self {
+            Self::Scalar(_) | Self::Mask(_) => &[""],
+            Self::Vector(_) => &["X", "Y", "Z"],
+            Self::Tensor(_) => &["XX", "YY", "ZZ", "XY", "YZ", "XZ"],
+        }
+    }
+
+    fn append(&self, out: &mut Vec<u8>) {
+        match self {
+            Self::Scalar(v) => v.iter().for_each(|x| out.extend(x.to_le_bytes())),
+            Self::Vector(v) => v.iter().flatten().for_each(|x| out.extend(x.to_le_bytes())),
+            Self::Tensor(v) => v.iter().for_each(|t| {
+                // VTK orders symmetric tensors xx yy zz xy yz xz.
+                [t[0], t[1], t[2], t[3], t[5], t[4]].iter().for_each(|x| out.extend(x.to_le_bytes()));
+            }),
+            Self::Mask(v) => out.extend_from_slice(v),
+        }
+    }
+}
+
+impl<'a> Image<'a> {
+    /// A box of `extents` cubic cells whose low corner is at `origin_m`.
+    #[must_use]
+    pub fn new(extents: [usize; 3], origin_m: [f64; 3], spacing_m: f64) -> Self {
+        Self { extents, origin_m, spacing_m, time_s: None, arrays: Vec::new() }
+    }
+
+    /// Stores the time as the field `TimeValue`, which ParaView understands.
+    #[must_use]
+    pub fn time(mut self, time_s: f64) -> Self {
+        self.time_s = Some(time_s);
+        self
+    }
+
+    /// Adds one number per cell.
+    #[must_use]
+    pub fn scalar(self, name: &str, values: &'a [f64]) -> Self {
+        self.array(name, Values::Scalar(values))
+    }
+
+    /// Adds one vector per cell.
+    #[must_use]
+    pub fn vector(self, name: &str, values: &'a [[f64; 3]]) -> Self {
+        self.array(name, Values::Vector(values))
+    }
+
+    /// Adds one symmetric tensor per cell, given as xx yy zz xy xz yz; the file holds VTK's
+    /// order, xx yy zz xy yz xz, with the components named.
+    #[must_use]
+    pub fn tensor(self, name: &str, values: &'a [[f64; 6]]) -> Self {
+        self.array(name, Values::Tensor(values))
+    }
+
+    /// Adds one small integer per cell.
+    #[must_use]
+    pub fn mask(self, name: &str, values: &'a [u8]) -> Self {
+        self.array(name, Values::Mask(values))
+    }
+
+    fn array(mut self, name: &str, values: Values<'a>) -> Self {
+        self.arrays.push(Array { name: name.to_owned(), values });
+        self
+    }
+
+    /// The file as bytes.
+    ///
+    /// # Errors
+    /// [`OutputError::Length`] when an array does not have one entry per cell.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, OutputError> {
+        let cells = self.extents.iter().product();
+        for Array { name, values } in &self.arrays {
+            if values.len() != cells {
+                return Err(OutputError::Length { what: name.clone(), found: values.len(), expected: cells });
+            }
+        }
+        let mut data = Vec::new();
+        let mut declarations = String::new();
+        for Array { name, values } in &self.arrays {
+            declare(&mut declarations, name, values, data.len());
+            let header = data.len();
+            data.extend([0; 8]);
+            values.append(&mut data);
+            let length = (data.len() - header - 8) as u64;
+            data[header..header + 8].copy_from_slice(&length.to_le_bytes());
+        }
+        let mut out = self.head(&declarations).into_bytes();
+        out.extend(data);
+        out.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
+        Ok(out)
+    }
+
+    fn head(&self, declarations: &str) -> String {
+        let [nx, ny, nz] = self.extents;
+        let [x, y, z] = self.origin_m;
+        let h = self.spacing_m;
+        let time = self.time_s.map_or_else(String::new, |t| {
+            format!(
+                "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" \
+                 format=\"ascii\">{t}</DataArray>\n</FieldData>\n"
+            )
+        });
+        format!(
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+             <ImageData WholeExtent=\"0 {nx} 0 {ny} 0 {nz}\" Origin=\"{x} {y} {z}\" Spacing=\"{h} {h} {h}\">\n\
+             {time}<Piece Extent=\"0 {nx} 0 {ny} 0 {nz}\">\n<PointData>\n</PointData>\n<CellData>\n\
+             {declarations}</CellData>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">\n_"
+        )
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// As [`Self::to_bytes`], and I/O.
+    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+        atomic::write(path, &self.to_bytes()?)
+    }
+}
+
+fn declare(out: &mut String, name: &str, values: &Values, offset: usize) {
+    let components = values.components();
+    let name = xml_escape(name);
+    let _ = write!(
+        out,
+        "<DataArray type=\"{}\" Name=\"{name}\" NumberOfComponents=\"{}\"",
+        values.kind(),
+        components.len()
+    );
+    for (c, label) in components.iter().enumerate().filter(|(_, label)| !label.is_empty()) {
+        let _ = write!(out, " ComponentName{c}=\"{label}\"");
+    }
+    let _ = writeln!(out, " format=\"appended\" offset=\"{offset}\"/>");
+}
