@@ -65,8 +65,9 @@ pub const ACCELERATION: Claim = Claim {
 };
 
 const HEIGHT: usize = 8;
-const WALL_SPEED: f64 = 0.01;
-/// Shear rate of the exact flow, 1.25e-3.
+/// Slow, because the error of the magnitude grows with its square.
+const WALL_SPEED: f64 = 1e-5;
+/// Shear rate of the exact flow, 1.25e-6.
 pub const EXACT: f64 = WALL_SPEED / HEIGHT as f64;
 
 /// Steady Couette flow of a relaxation time, BGK.
@@ -124,10 +125,10 @@ pub const COUETTE: Claim = Claim {
     },
     order: None,
     tolerance: Tolerance {
-        value: 1e-10,
+        value: WALL_SPEED * WALL_SPEED,
         at: Rung::Every,
-        because: "rounding: second moments of 1e-3/3 from populations near 1e-3, 1e-15 relative, times the \
-condition 1/(τ − ½) ≤ 20 of the stress, with the steadiness e⁻²⁰ of the linear start",
+        because: "error of the scheme: normal stresses of second order in U make the magnitude too large by \
+up to 0.4 U² at τ = 1.8 (measured at U = 0.01 and 1e-5); rounding is below 1e-12",
     },
     kind: Kind::Verification,
     measure: measure_couette,
