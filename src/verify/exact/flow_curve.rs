@@ -19,6 +19,12 @@ pub trait FlowCurve {
     /// The stress below which the material is rigid; 0 if it has none.
     fn yield_stress(&self) -> f64;
 
+    /// Whether γ̇(σ) leaves the yield stress with infinite slope (shear-thickening laws, n > 1), so that
+    /// an iteration does better to count in rates than in stresses.
+    fn steep_at_yield(&self) -> bool {
+        false
+    }
+
     /// ∫₀^σ sᵖ γ̇(s) ds for p = 0 (velocities), 1 (plane flux), 2 (pipe flux).
     fn moment(&self, power: u32, stress: f64) -> f64;
 }
@@ -109,6 +115,10 @@ impl FlowCurve for Law {
 
     fn yield_stress(&self) -> f64 {
         herschel_bulkley_form(self).map_or(0.0, |(sigma0, ..)| sigma0)
+    }
+
+    fn steep_at_yield(&self) -> bool {
+        herschel_bulkley_form(self).is_some_and(|(.., n)| n > 1.0)
     }
 
     fn moment(&self, power: u32, stress: f64) -> f64 {

@@ -41,7 +41,8 @@ impl<C: FlowCurve> Stage<'_, C> {
             let mut part = 1.0;
             let mut accepted = false;
             for _ in 0..60 {
-                let trial: Vec<f64> = stress.iter().zip(&change).map(|(s, d)| s + part * d).collect();
+                let trial: Vec<f64> =
+                    stress.iter().zip(&change).map(|(s, d)| self.moved(*s, part * d)).collect();
                 let trial_residual = self.residual(&trial);
                 let (trial_size, trial_energy) = (norm(&trial_residual), self.energy(&trial));
                 // Armijo on the convex function, or on its gradient where rounding hides the fall.
@@ -65,6 +66,22 @@ impl<C: FlowCurve> Stage<'_, C> {
             iterations: NEWTON_STEPS,
             residual: size,
         })
+    }
+
+    /// The stress after a Newton change. Where the law is steep at yield the change is made in the
+    /// rate, γ̇ + R′ dσ, and carried back through σ(γ̇): to first order the same, but free of the
+    /// overshoot across the yield stress that the infinite slope of R would cause.
+    fn moved(&self, stress: f64, change: f64) -> f64 {
+        let law = &self.flow.law;
+        if law.steep_at_yield() {
+            let sign = if stress < 0.0 { -1.0 } else { 1.0 };
+            let slope = law.rate_slope(stress.abs());
+            let rate = law.rate(stress.abs()) + slope * sign * change;
+            if slope > 0.0 && rate > 0.0 {
+                return sign * law.stress(rate);
+            }
+        }
+        stress + change
     }
 
     /// The change of stress below which Newton's method may end once it no longer gains: 1e-10 of the

@@ -96,6 +96,18 @@ fn bingham_start_up_converges_at_second_order_in_time() {
     assert!(first > error(50) && first < 0.05, "{first}");
 }
 
+/// Small steps on a fine grid, where a yield surface moves little per step, once defeated Newton's
+/// method for n = 2: the slope of the rate is infinite at yield.
+#[test]
+fn shear_thickening_start_up_in_small_steps() {
+    let law = Law::HerschelBulkley { sigma0: 0.5, k: 0.2, n: 2.0 };
+    let (coarse, fine) = (run(&half_channel(law, 100), 100, 0.8), run(&half_channel(law, 400), 1600, 0.8));
+    // Δy^{3/2} of the square root at the yield surface.
+    assert!((coarse.velocity[0] / fine.velocity[0] - 1.0).abs() < 1e-3);
+    let power = run(&half_channel(Law::PowerLaw { k: 0.2, n: 2.0 }, 100), 400, 0.8);
+    assert!(power.velocity.windows(2).all(|w| w[0] >= w[1]));
+}
+
 #[test]
 fn momentum_balance_of_a_step() {
     let flow = Flow1d { scheme: Scheme::BackwardEuler, ..half_channel(HB, 80) };
