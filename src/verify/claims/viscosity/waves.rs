@@ -131,22 +131,25 @@ impl Wave {
         let nu = relaxation.viscosity();
         let setup = self.setup(Law::Newtonian { mu: nu }, collision);
         let nominal = nu * self.k2();
-        let rate = self.decay(backend, &setup, skip(relaxation, nominal), WINDOW)?;
+        let rate = self.decay(backend, &setup, skip(relaxation, nominal), window(nominal))?;
         Ok(rate / nominal)
     }
 }
 
-/// Steps over which a decay is measured. The two amplitudes are good to 1e-14, so the slowest decay
-/// of the ladders, 4e-6 per step, comes out to 1e-10.
-pub const WINDOW: u64 = 64;
+/// Steps over which the decay of a wave with this rate is measured: 64, or until e⁻⁵ is left. The two
+/// amplitudes are good to 1e-14, so the slowest decay of the ladders, 4e-6 per step, comes out to 1e-10.
+pub fn window(rate: f64) -> u64 {
+    (5.0 / rate).clamp(4.0, 64.0) as u64
+}
 
 /// Steps until the kinetic modes, which keep |1 − 1/τ| per step, have lost 13 decades against a wave
-/// that decays at `rate`.
+/// that decays at `rate`; but at most e⁻⁴⁵ of the wave may be gone, or rounding of the modes that do
+/// not decay would show.
 pub fn skip(relaxation: Relaxation, rate: f64) -> u64 {
     let kept = (1.0 - 1.0 / relaxation.even).abs().max((1.0 - 1.0 / relaxation.odd).abs());
     let gain = -libm::log(kept) - 1.2 * rate;
     let steps = if gain > 0.0 { 30.0 / gain } else { 3000.0 };
-    steps.clamp(40.0, 3000.0).ceil() as u64
+    steps.clamp(40.0, 3000.0).min(45.0 / rate).ceil() as u64
 }
 
 impl From<ExactError> for VerifyError {
