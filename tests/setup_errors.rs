@@ -2,7 +2,7 @@
 
 use lahar::rheology::Law;
 use lahar::solver::plain::Plain;
-use lahar::solver::run::{Backend, Run, Runaway, StartError};
+use lahar::solver::run::{Backend, Runaway, StartError};
 use lahar::solver::setup::{BodyForce, Face, FlowPoint, Setup, SolidMotion};
 
 const LAW: Law = Law::Newtonian { mu: 0.1 };

@@ -82,6 +82,16 @@ impl Symmetry {
         image
     }
 
+    pub fn tensor(&self, t: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        let mut image = [[0.0; 3]; 3];
+        for a in 0..3 {
+            for b in 0..3 {
+                image[self.axes[a]][self.axes[b]] = f64::from(self.signs[a] * self.signs[b]) * t[a][b];
+            }
+        }
+        image
+    }
+
     pub fn direction(&self, i: usize) -> usize {
         let mut image = [0; 3];
         for a in 0..3 {

@@ -69,7 +69,7 @@ const fn claim(
         id,
         title,
         tags,
-        measures: "ν_eff/ν = −ln|a(t+s)/a(t)|/(s νk²) of a shear wave of amplitude 1e-6, worst entry of the table for this N",
+        measures: "ν_eff/ν = −ln|a(t+s)/a(t)|/(s νk²) for late t of a shear wave of amplitude 1e-6, worst entry of the table for this N",
         reference: REFERENCE,
         metric: Metric::Relative,
         ladder: Ladder { parameter: "N (cells per wave and axis)", short, full: &[8.0, 16.0, 32.0, 64.0] },
