@@ -201,9 +201,8 @@ proptest! {
         // Per cell and step 60 operations on sums below 0.05.
         let bound = 60.0 * 0.5 * f64::EPSILON * 0.05 * steps as f64 * cells;
         prop_assert!((after.mass_excess - before.mass_excess).abs() <= bound);
-        for a in 0..3 {
-            let gained = force[a] * steps as f64 * cells;
-            prop_assert!((after.momentum[a] - before.momentum[a] - gained).abs() <= bound);
+        for ((now, then), force) in after.momentum.iter().zip(before.momentum).zip(force) {
+            prop_assert!((now - then - force * steps as f64 * cells).abs() <= bound);
         }
     }
 }

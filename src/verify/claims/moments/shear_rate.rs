@@ -29,8 +29,8 @@ fn measure_acceleration(backend: &dyn Backend, tau: f64) -> Result<Sample, Verif
         for cell in 0..setup.cells() {
             let gamma_dot = fields.shear_rate[cell];
             shear = if gamma_dot <= shear { shear } else { gamma_dot };
-            for a in 0..3 {
-                let error = (fields.velocity[cell][a] - FORCE[a] * STEPS as f64).abs();
+            for (u, force) in fields.velocity[cell].iter().zip(FORCE) {
+                let error = (u - force * STEPS as f64).abs();
                 velocity = if error <= velocity { velocity } else { error };
             }
         }

@@ -18,6 +18,10 @@ fn scheme(op: &str, tau: f64) -> Option<(CollisionChoice, Relaxation)> {
     }
 }
 
+/// Waves that lose more per step are left out: kinetic modes then live almost as long, and rounding is
+/// reached before they are gone. It concerns one entry, BGK at τ = 1.8 and N = 8 on the diagonal.
+const FASTEST: f64 = 0.5;
+
 const ACROSS: f64 = core::f64::consts::FRAC_1_SQRT_2;
 
 /// All entries of the table for one N, one direction and the operators whose name starts with `ops`;
@@ -38,6 +42,9 @@ fn measure(backend: &dyn Backend, n: f64, ops: &str, direction: &str) -> Result<
             _ => vec![Wave::diagonal(cells, [ACROSS, -ACROSS, 0.0]), Wave::diagonal(cells, [0.0, 0.0, 1.0])],
         };
         for wave in waves {
+            if relaxation.viscosity() * wave.k2() > FASTEST {
+                continue;
+            }
             let ratio = wave.viscosity_ratio(backend, collision, relaxation)?;
             let sample = Sample::relative(n, ratio, entry.number()?);
             extra.push((format!("{op} tau={tau} [-]"), ratio));
@@ -51,7 +58,7 @@ fn measure(backend: &dyn Backend, n: f64, ops: &str, direction: &str) -> Result<
 
 const REFERENCE: Reference = Reference {
     source: "reference value shear_wave_nu_ratio: eigenvalue of the linearised scheme, τ from 0.505 to 1.8 \
-(the nine noted entries, which are not the shear mode, are left out); confirmed by verify::exact::discrete_modes",
+(left out: the nine noted entries, which are not the shear mode, and waves with νk² > ½, one entry); confirmed by verify::exact::discrete_modes",
     uncertainty: 1e-8,
 };
 

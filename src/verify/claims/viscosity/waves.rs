@@ -97,9 +97,8 @@ impl Wave {
         sum
     }
 
-    /// Decay rate of the amplitude per step, from three stretches of `window` steps after `skip` steps
-    /// that let the kinetic modes die. Where the three still converge geometrically, because a kinetic
-    /// mode lives almost as long as the wave, their limit is taken (Aitken).
+    /// Decay rate of the amplitude per step over `window` steps, after `skip` steps that let the
+    /// kinetic modes die.
     ///
     /// # Errors
     /// As the backend's.
@@ -113,16 +112,10 @@ impl Wave {
         let mut run = backend.start(setup)?;
         run.advance(skip)?;
         let (re, im) = self.project(&*run);
-        let mut before = re * re + im * im;
-        let mut rates = [0.0; 3];
-        for rate in &mut rates {
-            run.advance(window)?;
-            let (re, im) = self.project(&*run);
-            let after = re * re + im * im;
-            *rate = -0.5 * libm::log(after / before) / window as f64;
-            before = after;
-        }
-        Ok(limit(rates))
+        let before = re * re + im * im;
+        run.advance(window)?;
+        let (re, im) = self.project(&*run);
+        Ok(-0.5 * libm::log((re * re + im * im) / before) / window as f64)
     }
 
     /// ν_eff/ν of a Newtonian fluid with these relaxation times.
@@ -141,13 +134,6 @@ impl Wave {
         let rate = self.decay(backend, &setup, skip(relaxation, nominal), window(nominal))?;
         Ok(rate / nominal)
     }
-}
-
-/// Limit of three numbers that converge geometrically; the last one if they do not, which includes
-/// numbers that differ by rounding only.
-fn limit([a, b, c]: [f64; 3]) -> f64 {
-    let quotient = (c - b) / (b - a);
-    if quotient.abs() < 0.9 { c + (c - b) * quotient / (1.0 - quotient) } else { c }
 }
 
 /// Steps over which the decay of a wave with this rate is measured: 64, or until e⁻⁵ is left. The two
@@ -175,17 +161,5 @@ impl From<ExactError> for VerifyError {
 impl From<ReferenceError> for VerifyError {
     fn from(error: ReferenceError) -> Self {
         Self::Numerics { what: "the reference value", detail: error.to_string() }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::limit;
-
-    #[test]
-    fn limit_of_geometric_and_of_constant_numbers() {
-        assert_eq!(limit([2.0 + 1.0, 2.0 + 0.5, 2.0 + 0.25]), 2.0);
-        assert_eq!(limit([2.0, 2.0, 2.0]), 2.0);
-        assert_eq!(limit([1.0, 2.0, 3.0]), 3.0);
     }
 }
