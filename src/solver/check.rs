@@ -9,7 +9,8 @@ use crate::boundary::links::MAX_CELLS;
 /// # Errors
 /// The first inconsistency found.
 pub fn check(setup: &Setup) -> Result<(), StartError> {
-    let cells = setup.extents.iter().map(|&n| n as u128).product::<u128>();
+    // Three of the largest extents overflow even 128 bits.
+    let cells = setup.extents.iter().fold(1_u128, |cells, &n| cells.saturating_mul(n as u128));
     if cells > u128::from(MAX_CELLS) {
         return Err(StartError::TooManyCells { cells, max: MAX_CELLS });
     }

@@ -1,0 +1,195 @@
+//! Contract: an expression written over `Lane` gives, in each entry of a pack, the bits it gives for
+//! `f64` alone, whatever the other entries hold. Out of scope: `Dual`, which is not a pack, and the
+//! payload of NaNs.
+
+mod common;
+
+use common::{LAWS, Numbers, OPERATORS, TREATMENTS};
+use lahar::boundary::bounce_back::bounce_back;
+use lahar::boundary::wall_slip::{stress_source, tangential, wall_slip};
+use lahar::collision::Collision;
+use lahar::lane::{Lane, Pack};
+use lahar::lattice::Q;
+use lahar::lattice::equilibrium::equilibrium;
+use lahar::lattice::moments::{add_third, deviator, magnitude, moments, populations};
+use lahar::rheology::{Law, Rheology, relaxation};
+
+/// A kernel from some numbers to some numbers, over any lane.
+trait Kernel {
+    fn run<L: Lane>(&self, x: &[L]) -> Vec<L>;
+}
+
+fn bits(x: f64) -> u64 {
+    if x.is_nan() { u64::MAX } else { x.to_bits() }
+}
+
+fn compare_packs<const N: usize>(kernel: &impl Kernel, inputs: &[Vec<f64>], what: &str) {
+    for group in inputs.windows(N) {
+        let packed: Vec<Pack<N>> =
+            (0..group[0].len()).map(|k| Pack(std::array::from_fn(|lane| group[lane][k]))).collect();
+        let together = kernel.run(&packed);
+        for (lane, input) in group.iter().enumerate() {
+            let alone = kernel.run::<f64>(input);
+            assert_eq!(alone.len(), together.len());
+            for (k, (a, p)) in alone.iter().zip(&together).enumerate() {
+                assert_eq!(
+                    bits(*a),
+                    bits(p.0[lane]),
+                    "{what}: output {k}, lane {lane} of {N}: {a:e} {:e}",
+                    p.0[lane]
+                );
+            }
+        }
+    }
+}
+
+fn compare(kernel: &impl Kernel, inputs: &[Vec<f64>], what: &str) {
+    compare_packs::<2>(kernel, inputs, what);
+    compare_packs::<4>(kernel, inputs, what);
+    compare_packs::<8>(kernel, inputs, what);
+}
+
+const SPECIAL: [f64; 8] = [0.0, -0.0, 5e-324, -5e-324, f64::MIN_POSITIVE, 1e-300, f64::EPSILON, -1e-17];
+
+/// Populations and a force: ordinary states of many sizes, and special ones.
+fn states() -> Vec<Vec<f64>> {
+    let mut numbers = Numbers::new(11);
+    let mut states = Vec::new();
+    for size in [0.4, 1e-2, 1e-8, 1e-160] {
+        for _ in 0..10 {
+            let mut x = numbers.populations(size).to_vec();
+            x.extend(numbers.vector(1e-3 * size));
+            states.push(x);
+        }
+    }
+    for special in SPECIAL {
+        states.push(vec![special; Q + 3]);
+        states.push((0..Q + 3).map(|k| if k % 3 == 0 { special } else { 1e-3 * numbers.next() }).collect());
+    }
+    states
+}
+
+fn split<L: Lane>(x: &[L]) -> ([L; Q], [L; 3]) {
+    (std::array::from_fn(|i| x[i]), std::array::from_fn(|a| x[Q + a]))
+}
+
+struct MomentsKernel;
+impl Kernel for MomentsKernel {
+    fn run<L: Lane>(&self, x: &[L]) -> Vec<L> {
+        let (h, force) = split(x);
+        let m = moments(&h, &force);
+        let mut out = vec![m.d_rho, m.rho, magnitude(&deviator(&m.q))];
+        out.extend(m.u);
+        out.extend(m.q);
+        out
+    }
+}
+
+struct EquilibriumKernel;
+impl Kernel for EquilibriumKernel {
+    fn run<L: Lane>(&self, x: &[L]) -> Vec<L> {
+        equilibrium(x[0], L::one() + x[0], &[x[1], x[2], x[3]]).to_vec()
+    }
+}
+
+struct TransformKernel;
+impl Kernel for TransformKernel {
+    fn run<L: Lane>(&self, x: &[L]) -> Vec<L> {
+        let six = |from: usize| std::array::from_fn(|k| x[from + k]);
+        let mut h = populations(x[0], &[x[1], x[2], x[3]], &six(4), &six(10), &[x[16], x[17], x[18]]);
+        add_third(&mut h, &six(2));
+        h.to_vec()
+    }
+}
+
+struct CollisionKernel(lahar::collision::CollisionChoice, f64);
+impl Kernel for CollisionKernel {
+    fn run<L: Lane>(&self, x: &[L]) -> Vec<L> {
+        let (h, force) = split(x);
+        let omega = L::splat(self.1);
+        let mut out = self.0.collide(&h, &moments(&h, &force), omega).to_vec();
+        out.extend([self.0.odd_omega(omega), self.0.wanted_odd_excess(omega)]);
+        out
+    }
+}
+
+#[test]
+fn parity_of_moments_equilibrium_and_transform() {
+    compare(&MomentsKernel, &states(), "moments");
+    compare(&EquilibriumKernel, &states(), "equilibrium");
+    compare(&TransformKernel, &states(), "transform");
+}
+
+#[test]
+fn parity_of_every_collision() {
+    for operator in OPERATORS {
+        for omega in [0.0, 5e-324, 0.3, 1.0, 1.0 / 0.55, 1.999] {
+            compare(&CollisionKernel(operator, omega), &states(), &format!("{operator:?} at ω = {omega}"));
+        }
+    }
+}
+
+/// Stress magnitudes around every threshold of a law: exactly σ0, its neighbours, zeros, denormals.
+fn stresses(law: &Law) -> Vec<Vec<f64>> {
+    let sigma0 = match *law {
+        Law::Papanastasiou { sigma0, .. } => sigma0,
+        _ => law.yield_stress(),
+    };
+    let mut numbers = Numbers::new(5);
+    let mut q = vec![sigma0, sigma0.next_up(), sigma0.next_down().max(0.0), 1.5 * sigma0];
+    q.extend(SPECIAL.map(f64::abs));
+    q.push(-0.0);
+    for decade in -14..=-1 {
+        q.push(libm::exp(core::f64::consts::LN_10 * (f64::from(decade) + numbers.next())));
+    }
+    // Neighbours in a pack should be as unlike as possible.
+    let half = q.len() / 2;
+    let mixed = (0..q.len()).map(|k| if k % 2 == 0 { q[k / 2] } else { q[(half + k / 2) % q.len()] });
+    mixed.map(|q| vec![q, 1.0 + 0.1 * numbers.next(), 1.0 + 0.9 * numbers.next()]).collect()
+}
+
+struct OmegaKernel(Law, lahar::solver::setup::YieldTreatment);
+impl Kernel for OmegaKernel {
+    fn run<L: Lane>(&self, x: &[L]) -> Vec<L> {
+        let (q, rho, previous) = (x[0], x[1], x[2]);
+        let gamma_dot = self.0.shear_rate(rho, q);
+        let omega = relaxation::omega(&self.0, self.1, rho, q, previous);
+        vec![
+            gamma_dot,
+            self.0.stress(gamma_dot),
+            self.0.tangent_viscosity(gamma_dot),
+            omega,
+            relaxation::tangent_fluidity(&self.0, self.1, rho, omega, q),
+        ]
+    }
+}
+
+#[test]
+fn parity_of_every_law_and_treatment() {
+    for law in LAWS {
+        for treatment in TREATMENTS {
+            compare(&OmegaKernel(law, treatment), &stresses(&law), &format!("{law:?} {treatment:?}"));
+        }
+    }
+}
+
+struct WallKernel;
+impl Kernel for WallKernel {
+    fn run<L: Lane>(&self, x: &[L]) -> Vec<L> {
+        let v = [x[1], x[2], x[3]];
+        let mut out: Vec<L> = (1..Q).map(|i| bounce_back(x[0], i, L::one() + x[4], &v)).collect();
+        let along = tangential(&v, &[0.6, 0.0, 0.8]);
+        out.extend(along);
+        out.extend(wall_slip(&along, L::one() + x[4], x[5].abs(), L::splat(1.2)));
+        let q = std::array::from_fn(|k| x[6 + k]);
+        for wanted in [0.0, 0.02, 0.3] {
+            out.extend(stress_source(&v, &q, L::splat(wanted), L::splat(1.0 / 0.55)));
+        }
+        out
+    }
+}
+
+#[test]
+fn parity_of_walls_and_stress_source() {
+    compare(&WallKernel, &states(), "walls");
+}

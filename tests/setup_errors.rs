@@ -1,0 +1,128 @@
+//! Set-ups that cannot be run are refused before anything is allocated.
+
+use lahar::rheology::Law;
+use lahar::solver::plain::Plain;
+use lahar::solver::run::{Backend, Runaway, StartError};
+use lahar::solver::setup::{BodyForce, Face, FlowPoint, Setup, SolidMotion};
+
+const LAW: Law = Law::Newtonian { mu: 0.1 };
+
+fn refusal(change: impl FnOnce(&mut Setup)) -> StartError {
+    let mut setup = Setup::periodic([4, 3, 2], LAW);
+    change(&mut setup);
+    match Plain.start(&setup) {
+        Ok(_) => panic!("accepted"),
+        Err(error) => error,
+    }
+}
+
+#[test]
+fn wrong_lengths() {
+    assert_eq!(
+        refusal(|s| s.solids = vec![0; 23]),
+        StartError::Length { field: "solids", found: 23, expected: 24 }
+    );
+    assert_eq!(
+        refusal(|s| s.fluid_of_cell = vec![0; 25]),
+        StartError::Length { field: "fluid_of_cell", found: 25, expected: 24 }
+    );
+}
+
+#[test]
+fn entries_outside_their_table() {
+    assert_eq!(
+        refusal(|s| {
+            s.solids = vec![0; 24];
+            s.solids[5] = 2;
+            s.solid_motion = vec![SolidMotion::default()];
+        }),
+        StartError::UnknownEntry { table: "solid_motion", cell: 5, found: 2, len: 2 }
+    );
+    assert_eq!(
+        refusal(|s| {
+            s.fluid_of_cell = vec![0; 24];
+            s.fluid_of_cell[23] = 1;
+        }),
+        StartError::UnknownEntry { table: "fluids", cell: 23, found: 1, len: 1 }
+    );
+}
+
+#[test]
+fn half_periodic_axes() {
+    for (axis, name) in ['x', 'y', 'z'].into_iter().enumerate() {
+        for side in 0..2 {
+            let error = refusal(|s| s.faces[axis][side] = Face::NoSlip);
+            assert_eq!(error, StartError::HalfPeriodic { axis: name });
+        }
+    }
+}
+
+#[test]
+fn nothing_to_compute() {
+    for axis in 0..3 {
+        assert_eq!(refusal(|s| s.extents[axis] = 0), StartError::NoFluid);
+    }
+    assert_eq!(refusal(|s| s.fluids.clear()), StartError::NoFluid);
+    let solid = refusal(|s| {
+        s.solids = vec![1; 24];
+        s.solid_motion = vec![SolidMotion::default()];
+    });
+    assert_eq!(solid, StartError::NoFluid);
+}
+
+#[test]
+fn too_many_cells() {
+    assert!(matches!(
+        refusal(|s| s.extents = [2000; 3]),
+        StartError::TooManyCells { cells: 8_000_000_000, .. }
+    ));
+    // A product that overflows 64 bits.
+    assert!(matches!(refusal(|s| s.extents = [usize::MAX; 3]), StartError::TooManyCells { .. }));
+}
+
+#[test]
+fn messages_name_what_and_where() {
+    let message = refusal(|s| s.solids = vec![0; 23]).to_string();
+    assert_eq!(message, "`solids` has 23 entries, but the box has 24 cells");
+    let message = refusal(|s| s.faces[2][0] = Face::FreeSlip).to_string();
+    assert_eq!(message, "axis z: one face is periodic and the other is not");
+}
+
+/// The guard names the first cell in index order and the step, whatever the number of threads.
+#[test]
+fn runaway_is_stopped_with_step_and_cell() {
+    for threads in [1, 3] {
+        let mut setup = Setup::periodic([20, 20, 20], LAW);
+        setup.threads = threads;
+        setup.speed_limit = 0.1;
+        setup.initial = Some(std::sync::Arc::new(|cell| FlowPoint {
+            density: 1.0,
+            velocity: [if cell == [3, 2, 1] || cell == [9, 15, 18] { 0.2 } else { 0.0 }, 0.0, 0.0],
+            gradient: [[0.0; 3]; 3],
+        }));
+        let mut run = Plain.start(&setup).expect("a consistent set-up");
+        let stopped = run.advance(5).expect_err("too fast");
+        assert_eq!((stopped.step, stopped.cell), (0, [3, 2, 1]));
+        assert!(matches!(stopped.what, Runaway::TooFast { limit: 0.1, .. }), "{stopped:?}");
+        // The populations are those of the step named.
+        assert_eq!(run.step(), 0);
+    }
+}
+
+#[test]
+fn not_a_number_is_stopped() {
+    let mut setup = Setup::periodic([3, 3, 3], LAW);
+    setup.force = BodyForce::Constant([f64::NAN, 0.0, 0.0]);
+    let mut run = Plain.start(&setup).expect("a force is not looked at before the first step");
+    assert_eq!(run.advance(1).expect_err("not finite").what, Runaway::NotFinite);
+    let mut setup = Setup::periodic([3, 3, 3], LAW);
+    setup.initial = Some(std::sync::Arc::new(|_| FlowPoint {
+        density: -1.0,
+        velocity: [0.0; 3],
+        gradient: [[0.0; 3]; 3],
+    }));
+    let mut run = Plain.start(&setup).expect("a density is not looked at before the first step");
+    assert!(
+        matches!(run.advance(1).expect_err("no density").what, Runaway::NoDensity { density } if density < 0.0)
+    );
+}
