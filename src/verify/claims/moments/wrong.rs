@@ -84,6 +84,10 @@ impl Physics for WrongPhysics {
         self.base.odd_omega(omega)
     }
 
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        self.base.odd_departure(h, m)
+    }
+
     fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
         self.base.wanted_odd_excess(omega)
     }
