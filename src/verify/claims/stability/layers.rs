@@ -7,9 +7,7 @@ use crate::rheology::Law;
 use crate::solver::run::Backend;
 use crate::solver::setup::{Face, FlowPoint, Setup};
 use crate::solver::steady::{SteadyRule, run_to_steady};
-use crate::verify::claim::{
-    Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError,
-};
+use crate::verify::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 
 /// τ⁺ below and above the jump, and speed of the upper wall.
 const THIN: f64 = 0.51;
