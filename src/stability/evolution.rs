@@ -76,7 +76,7 @@ fn transform(amplitudes: &mut [[c64; Q]], n: usize, stride: usize) {
         })
         .collect();
     let mut line = vec![[c64::new(0.0, 0.0); Q]; n];
-    for start in (0..amplitudes.len()).filter(|at| (at / stride) % n == 0) {
+    for start in (0..amplitudes.len()).filter(|at| (at / stride).is_multiple_of(n)) {
         for (k, out) in line.iter_mut().enumerate() {
             *out = [c64::new(0.0, 0.0); Q];
             for i in 0..n {

@@ -79,8 +79,8 @@ fn regress_table_entries_found_again() -> Result<(), StabilityError> {
 
 #[test]
 fn limit_between_rows_lies_between_them() {
-    let at = |tau| max_stable_speed(&CollisionChoice::Bgk, tau).map(|l| l.speed);
-    assert!(at(0.52).unwrap() < at(0.53).unwrap() && at(0.53).unwrap() < at(0.535).unwrap());
-    assert!(at(0.500_25).unwrap() < at(0.5005).unwrap());
+    let at = |tau| max_stable_speed(&CollisionChoice::Bgk, tau).map_or(f64::NAN, |l| l.speed);
+    assert!(at(0.52) < at(0.53) && at(0.53) < at(0.535));
+    assert!(at(0.500_25) < at(0.5005));
     assert_eq!(at(f64::INFINITY), at(100.0));
 }

@@ -221,9 +221,8 @@ pub fn vortex_defect(
         let moving = vortex_rate(backend, collision, plane, speed)?;
         let still = vortex_rate(backend, collision, plane, 0.0)?;
         let defect = (moving / still - 1.0).abs();
-        if !(defect <= worst) {
-            worst = defect;
-        }
+        // Lets NaN through.
+        worst = if defect <= worst { worst } else { defect };
     }
     Ok(worst)
 }
