@@ -154,7 +154,7 @@ pub const PLUG_RIGID: Claim = Claim {
     kind: Kind::Verification,
     measure: |backend, n| {
         let column = Column::unit(32, &Law::HerschelBulkley { sigma0: 0.5, k: 0.2, n }, 1.0, SPEED);
-        let steady = steady_column(backend, &column, 1e-13)?;
+        let steady = steady_column(backend, &column, 1e-12)?;
         let plug = Plug::of(&column, &steady.fields)?;
         Ok(Sample::absolute(n, plug.spread, 0.0)
             .with("plug cells", plug.cells as f64)
