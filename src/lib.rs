@@ -8,6 +8,7 @@ pub mod output;
 pub mod plan;
 pub mod report;
 pub mod rheology;
+pub mod run_scene;
 pub mod scene;
 pub mod solver;
 pub mod stability;

@@ -1,1 +1,223 @@
-fn main() {}
+//! The command line.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+use lahar::output::OutputError;
+use lahar::plan::{Plan, PlanError};
+use lahar::report::{self, ReportError, ReportOutcome};
+use lahar::run_scene::{self, Options, RunError};
+use lahar::scene::{self, Scene, SceneError, SceneProblem};
+use lahar::solver::plain::Plain;
+use lahar::solver::run::Backend;
+
+const BAD_INPUT: u8 = 2;
+const STOPPED: u8 = 3;
+const IO: u8 = 4;
+
+/// Lattice-Boltzmann flows of yield-stress fluids.
+#[derive(Parser)]
+#[command(
+    name = "lahar",
+    version,
+    after_help = "Exit codes: 0 done, 1 report out of date, 2 bad input, 3 run stopped by a guard, 4 input or output failed."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run a scene and write fields, series, plots and a summary.
+    Run {
+        /// Scene file.
+        scene: PathBuf,
+        /// Output folder [default: out/<name of the scene>].
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Solver.
+        #[arg(long, value_enum, default_value = "plain")]
+        backend: BackendName,
+        /// Worker threads; results do not depend on it [default: all].
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+        threads: Option<u16>,
+        /// End time in seconds, instead of the scene's.
+        #[arg(long, value_name = "S", value_parser = end_time)]
+        until: Option<f64>,
+        /// Print nothing but errors.
+        #[arg(long)]
+        quiet: bool,
+    },
+    /// Show what a scene needs, what it does not, and what it costs; run nothing.
+    Plan {
+        /// Scene file.
+        scene: PathBuf,
+        /// As JSON; infinite numbers are null.
+        #[arg(long)]
+        json: bool,
+    },
+    /// Make REPORT.md from the golden records.
+    Report {
+        /// Only say whether it is up to date.
+        #[arg(long)]
+        check: bool,
+    },
+    /// Print the JSON Schema of a scene.
+    Schema,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum BackendName {
+    /// Scalar reference solver.
+    Plain,
+}
+
+impl BackendName {
+    fn backend(self) -> &'static dyn Backend {
+        match self {
+            Self::Plain => &Plain,
+        }
+    }
+}
+
+fn end_time(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds > 0.0 && seconds.is_finite() => Ok(seconds),
+        _ => Err("a number of seconds > 0 is wanted".to_owned()),
+    }
+}
+
+/// Whatever ends a command early.
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    #[error(transparent)]
+    Run(#[from] RunError),
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    #[error("cannot write the plan as JSON: {0}")]
+    Json(#[from] serde_json::Error),
+    #[error("REPORT.md is not up to date: {0}\n  way out: run `lahar report`")]
+    Stale(String),
+    #[error("cannot print: {0}")]
+    Print(#[from] std::io::Error),
+}
+
+impl Failure {
+    fn code(&self) -> u8 {
+        match self {
+            Self::Scene(error) if matches!(*error.problem, SceneProblem::Unreadable { .. }) => IO,
+            Self::Scene(_) | Self::Plan(_) => BAD_INPUT,
+            Self::Run(RunError::Start(_)) => BAD_INPUT,
+            Self::Run(RunError::Stopped(_)) => STOPPED,
+            Self::Run(RunError::Folder { .. } | RunError::Output(_)) => IO,
+            Self::Stale(_) => 1,
+            Self::Report(_) | Self::Json(_) | Self::Print(_) => IO,
+        }
+    }
+}
+
+impl From<OutputError> for Failure {
+    fn from(error: OutputError) -> Self {
+        Self::Run(RunError::Output(error))
+    }
+}
+
+fn main() -> ExitCode {
+    // clap prints its own message and leaves with 2 when the command line is wrong.
+    let cli = Cli::parse();
+    let result = match cli.command {
+        Command::Run { scene, out, backend, threads, until, quiet } => {
+            run(&scene, out, backend, threads, until, quiet)
+        }
+        Command::Plan { scene, json } => plan(&scene, json),
+        Command::Report { check } => make_report(check),
+        Command::Schema => print(&scene::schema()),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        // The reader of a pipe left: nothing to complain about.
+        Err(Failure::Print(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {failure}");
+            ExitCode::from(failure.code())
+        }
+    }
+}
+
+fn run(
+    path: &Path,
+    out: Option<PathBuf>,
+    backend: BackendName,
+    threads: Option<u16>,
+    until_s: Option<f64>,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let scene = scene::load(path)?;
+    let plan = Plan::new(&scene)?;
+    let out = out.unwrap_or_else(|| default_folder(&scene));
+    if !quiet {
+        let n = &plan.numbers;
+        let [nx, ny, nz] = n.extents;
+        let sentence = n.time_step_rule.sentence();
+        eprintln!(
+            "{}: {nx} × {ny} × {nz} cells, {} steps of {:.4e} s ({sentence})",
+            n.title, n.steps, n.time_step_s
+        );
+        for warning in &n.warnings {
+            eprintln!("warning: {warning}");
+        }
+    }
+    let threads = threads
+        .map_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get), usize::from);
+    let options = Options { out, backend: backend.backend(), threads, until_s, quiet };
+    let finished = run_scene::run(&scene, &plan, &options)?;
+    if !quiet {
+        let why = if finished.steady { "steady" } else { "end time" };
+        let residual = finished.residual.map_or_else(String::new, |r| format!(", residual {r:.2e}"));
+        eprintln!(
+            "done: {} steps, {:.6} s ({why}{residual}), {:.1} s of computing, {:.2} million updates per second",
+            finished.steps, finished.time_s, finished.wall_seconds, finished.million_updates_per_second
+        );
+        eprintln!("results in {}", options.out.display());
+    }
+    Ok(())
+}
+
+fn default_folder(scene: &Scene) -> PathBuf {
+    let name = Path::new(&scene.file).file_stem().map_or_else(|| "scene".into(), |stem| stem.to_os_string());
+    PathBuf::from("out").join(name)
+}
+
+fn plan(path: &Path, json: bool) -> Result<(), Failure> {
+    let plan = Plan::new(&scene::load(path)?)?;
+    if json {
+        print(&format!("{}\n", serde_json::to_string_pretty(&plan.numbers)?))
+    } else {
+        print(&plan.to_string())
+    }
+}
+
+fn make_report(check: bool) -> Result<(), Failure> {
+    match report::command(Path::new("."), check)? {
+        ReportOutcome::Stale { files } => {
+            let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+            Err(Failure::Stale(names.join(", ")))
+        }
+        ReportOutcome::Current => print("REPORT.md is up to date\n"),
+        ReportOutcome::Written { files } => print(&format!("{files} files written\n")),
+    }
+}
+
+/// Prints to standard output without panicking when nobody reads.
+fn print(text: &str) -> Result<(), Failure> {
+    use std::io::Write;
+    std::io::stdout().write_all(text.as_bytes())?;
+    Ok(())
+}

@@ -2,6 +2,7 @@
 
 use super::Collision;
 use super::forcing_guo::{even_source, odd_source};
+use super::trt::raw_odd_departure;
 use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::equilibrium::equilibrium;
@@ -25,6 +26,11 @@ impl Collision for Bgk {
         let odd = odd_source(&m.force);
         let weight = L::one() - L::splat(0.5) * omega;
         std::array::from_fn(|i| (h[i] - omega * (h[i] - heq[i])) + weight * (even[i] + odd[i]))
+    }
+
+    #[inline(always)]
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        raw_odd_departure(h, m)
     }
 
     #[inline(always)]

@@ -30,6 +30,11 @@ impl Collision for CentralMoment {
     }
 
     #[inline(always)]
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        co_moving_odd_departure(h, m)
+    }
+
+    #[inline(always)]
     fn odd_omega<L: Lane>(&self, omega: L) -> L {
         self.odd.odd_omega(omega)
     }
@@ -101,7 +106,19 @@ pub fn induced<L: Lane>(u: &[L; 3], tensor: &[L; 6], k: usize) -> L {
     L::splat(2.0) * (u[a] * tensor[pair(a, b)]) + u[b] * tensor[a]
 }
 
-/// a* = e + A1 + (1 − ω⁻)(A − A0) + ½ s, with A = a − e + ½ s.
+/// A − A0, with A = a − e + ½ s: the part of a third moment that is not induced by the stress.
+///
+/// # Source
+/// Design \[K3\].
+/// # Verified by
+/// Claims `poiseuille-newtonian-magic`, `central-moment-galilean`.
+#[inline(always)]
+pub fn third_departure<L: Lane>(m: &Moments<L>, a: L, k: usize) -> L {
+    let departure = (a - third_equilibrium(m, k)) + L::splat(0.5) * third_force(m, k);
+    departure - induced(&m.u, &m.q, k)
+}
+
+/// a* = e + A1 + (1 − ω⁻)(A − A0) + ½ s.
 ///
 /// # Source
 /// Design \[K3\].
@@ -110,12 +127,24 @@ pub fn induced<L: Lane>(u: &[L; 3], tensor: &[L; 6], k: usize) -> L {
 #[inline(always)]
 pub fn third_post<L: Lane>(m: &Moments<L>, a: &[L; 6], p: &[L; 6], keep_odd: L) -> [L; 6] {
     std::array::from_fn(|k| {
-        let e = third_equilibrium(m, k);
         let half_s = L::splat(0.5) * third_force(m, k);
-        let departure = (a[k] - e) + half_s;
-        let own = departure - induced(&m.u, &m.q, k);
-        ((e + induced(&m.u, p, k)) + keep_odd * own) + half_s
+        let own = third_departure(m, a[k], k);
+        ((third_equilibrium(m, k) + induced(&m.u, p, k)) + keep_odd * own) + half_s
     })
+}
+
+/// The departures of all third moments as populations.
+///
+/// # Source
+/// Design \[K3\], \[B3\].
+/// # Verified by
+/// Claim `poiseuille-newtonian-b3`; property `odd_departure_is_what_relaxes`.
+#[inline(always)]
+pub fn co_moving_odd_departure<L: Lane>(h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+    let zero = L::zero();
+    let a = third_hermite(h);
+    let own = std::array::from_fn(|k| third_departure(m, a[k], k));
+    populations(zero, &[zero; 3], &[zero; 6], &own, &[zero; 3])
 }
 
 /// Post-collision populations from second moments ρuu + P + ½(uF + Fu), third Hermite moments and

@@ -31,6 +31,10 @@ pub trait Collision: Copy + Send + Sync + 'static {
     /// The odd relaxation rate ω⁻ that goes with `omega`.
     fn odd_omega<L: Lane>(&self, omega: L) -> L;
 
+    /// Odd non-equilibrium of the pre-collision populations, with half the force: what relaxes with
+    /// ω⁻. Its mass and momentum are zero.
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q];
+
     /// τ⁻ − ½ before any floor: what Λ asks for \[K6\].
     #[inline(always)]
     fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
@@ -90,6 +94,9 @@ impl Collision for CollisionChoice {
     }
     fn odd_omega<L: Lane>(&self, omega: L) -> L {
         for_each_collision!(self, operator => operator.odd_omega(omega))
+    }
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        for_each_collision!(self, operator => operator.odd_departure(h, m))
     }
     fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
         for_each_collision!(self, operator => operator.wanted_odd_excess(omega))

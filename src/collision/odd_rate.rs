@@ -19,11 +19,14 @@ pub struct OddRate {
 
 impl Default for OddRate {
     fn default() -> Self {
-        Self { magic: 3.0 / 16.0, floor: 0.05, lowered_below: 0.05 }
+        Self::STANDARD
     }
 }
 
 impl OddRate {
+    /// The default parameters \[K3\] \[K5\].
+    pub const STANDARD: Self = Self { magic: 3.0 / 16.0, floor: 0.05, lowered_below: 0.05 };
+
     /// Λ fixed at all τ⁺, no floor: the textbook two-relaxation-time operator.
     #[must_use]
     pub const fn fixed(magic: f64) -> Self {

@@ -1,7 +1,9 @@
 //! Recursive-regularised relaxation \[K4\]: a robust fallback.
 
 use super::Collision;
-use super::central_moment::{induced, rebuild, relaxed_stress, third_equilibrium, third_force};
+use super::central_moment::{
+    co_moving_odd_departure, induced, rebuild, relaxed_stress, third_equilibrium, third_force,
+};
 use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::moments::Moments;
@@ -25,6 +27,11 @@ impl Collision for Regularised {
             (third_equilibrium(m, k) + induced(&m.u, &p, k)) + L::splat(0.5) * third_force(m, k)
         });
         rebuild(m, &p, &third)
+    }
+
+    #[inline(always)]
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        co_moving_odd_departure(h, m)
     }
 
     /// Third moments carry no memory: ω⁻ = 1.

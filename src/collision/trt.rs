@@ -39,6 +39,11 @@ impl Collision for Trt {
     }
 
     #[inline(always)]
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        raw_odd_departure(h, m)
+    }
+
+    #[inline(always)]
     fn odd_omega<L: Lane>(&self, omega: L) -> L {
         self.odd.odd_omega(omega)
     }
@@ -47,4 +52,21 @@ impl Collision for Trt {
     fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
         self.odd.excess(omega)
     }
+}
+
+/// ½[(f − f_eq)_i − (f − f_eq)_ī] + ½ S_i⁻: odd departure of the raw populations.
+///
+/// # Source
+/// Design \[K2\], \[B3\].
+/// # Verified by
+/// Claim `poiseuille-newtonian-b3`; property `odd_departure_is_what_relaxes`.
+#[inline(always)]
+pub fn raw_odd_departure<L: Lane>(h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+    let half = L::splat(0.5);
+    let heq = equilibrium(m.d_rho, m.rho, &m.u);
+    let source = odd_source(&m.force);
+    std::array::from_fn(|i| {
+        let j = opposite(i);
+        half * (((h[i] - heq[i]) - (h[j] - heq[j])) + source[i])
+    })
 }

@@ -229,19 +229,4 @@ mod tests {
         // One circle remains: the legend's.
         assert_eq!(svg.matches("<circle").count(), 1);
     }
-
-    #[test]
-    #[ignore = "writes target/look.svg to be looked at"]
-    fn look() {
-        std::fs::write("target/look_log.svg", draw(&sample()).unwrap()).unwrap();
-        let y: Vec<f64> = (0..=64).map(|k| f64::from(k) / 64.0).collect();
-        let profile = y.iter().map(|&y| [y * (1.0 - y) * 4.0e-3, y]).collect();
-        let plot = Plot::new("Velocity profile", Axis::linear("u", "m/s"), Axis::linear("y/H", ""))
-            .with(Series::line("computed", profile))
-            .with(Series::reference(
-                "a reference whose name is really quite long, to see what happens",
-                vec![[0.0, 0.5], [1e-3, 0.6]],
-            ));
-        std::fs::write("target/look_linear.svg", draw(&plot).unwrap()).unwrap();
-    }
 }

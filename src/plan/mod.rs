@@ -1,1 +1,96 @@
-//! (module)
+//! Scene to plan: lattice numbers, what the run needs, what it does not, and what it costs.
+
+mod cells;
+mod checks;
+mod error;
+mod initial;
+pub mod law;
+mod lower;
+mod memory;
+mod numbers;
+mod print;
+mod scale;
+mod time_step;
+
+use std::fmt;
+
+pub use error::{PlanError, PlanProblem};
+pub use memory::available as available_memory;
+pub use numbers::{Need, Numbers};
+pub use time_step::StepRule;
+
+use crate::scene::Scene;
+use crate::solver::setup::Setup;
+use crate::units::Units;
+
+/// Everything a run needs, worked out before it starts.
+#[derive(Clone)]
+pub struct Plan {
+    /// The scales between SI and lattice.
+    pub units: Units,
+    /// What the backend is asked to run.
+    pub setup: Setup,
+    /// Steps to the end time.
+    pub steps: u64,
+    /// What `lahar plan` prints.
+    pub numbers: Numbers,
+}
+
+impl Plan {
+    /// Plans a scene on this machine.
+    ///
+    /// # Errors
+    /// The scene is too large, too fast, unstable, or has no fluid.
+    pub fn new(scene: &Scene) -> Result<Self, PlanError> {
+        Self::with_memory(scene, memory::available())
+    }
+
+    /// Plans a scene as if `available` bytes of memory were free; `None` checks only that cells
+    /// can be numbered.
+    ///
+    /// # Errors
+    /// As [`Plan::new`].
+    pub fn with_memory(scene: &Scene, available: Option<u64>) -> Result<Self, PlanError> {
+        let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
+        checks::memory(scene, available).map_err(|problem| at("domain", problem))?;
+        checks::shapes(scene).map_err(|(path, problem)| at(&path, problem))?;
+        let cells = cells::fill(scene);
+        checks::some_fluid(&cells).map_err(|problem| at("solids", problem))?;
+        let scales = scale::scales(scene, &cells);
+        let (dt, rule) = time_step::choose(scene, &scales).map_err(|problem| at("numerics", problem))?;
+        let units = time_step::units(scene, dt);
+        let steps = checks::steps(scene, dt).map_err(|problem| at("stop.end_time_s", problem))?;
+        let gap = cells.gap;
+        let fluid_cells = cells.fluid_cells;
+        let setup = lower::lower(scene, &units, cells);
+        checks::finite(&setup).map_err(|problem| at("fluid", problem))?;
+        let numbers = numbers::numbers(&numbers::Given {
+            scene,
+            units: &units,
+            setup: &setup,
+            scales: &scales,
+            rule,
+            steps,
+            gap,
+            fluid_cells,
+        });
+        checks::numbers(&numbers, &setup).map_err(|problem| at(rule.path(), problem))?;
+        Ok(Self { units, setup, steps, numbers })
+    }
+}
+
+impl fmt::Debug for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Plan")
+            .field("units", &self.units)
+            .field("numbers", &self.numbers)
+            .finish_non_exhaustive()
+    }
+}
+
+impl fmt::Display for Plan {
+    /// The table of `lahar plan`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        print::table(f, &self.numbers)
+    }
+}

@@ -1,1 +1,92 @@
-//! (module)
+//! The scene file: SI units, checked, nothing numerical yet.
+
+mod check;
+mod domain;
+mod error;
+mod fluid;
+mod nearest;
+mod numerics;
+mod parse;
+
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use domain::{Boundaries, Boundary, Domain, FACE_KEYS};
+pub use error::{Located, SceneError, SceneProblem};
+pub use fluid::{BodyForce, Fluid, Gravity, InitialVelocity, Layer, Rheology, Solid};
+pub use numerics::{
+    Cadence, ClampLimits, Collision, Measure, Numerics, Operator, Output, Probe, Steady, Stop, WallChoice,
+    YieldChoice,
+};
+
+/// One experiment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Where the schema is, for editors; not read.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
+    /// One line for people.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// More for people.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub description: Option<String>,
+    /// The box.
+    pub domain: Domain,
+    /// Gravity; none when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<Gravity>,
+    /// The fluid.
+    pub fluid: Fluid,
+    /// Parts of the box that hold another fluid.
+    #[serde(default)]
+    pub layers: Vec<Layer>,
+    /// Fixed solids.
+    #[serde(default)]
+    pub solids: Vec<Solid>,
+    /// Numerical choices.
+    #[serde(default)]
+    pub numerics: Numerics,
+    /// When to stop.
+    pub stop: Stop,
+    /// What to write.
+    #[serde(default)]
+    pub output: Output,
+    /// Name of the file it came from, for messages.
+    #[serde(skip)]
+    pub file: String,
+}
+
+/// Reads and checks a scene file.
+///
+/// # Errors
+/// The file cannot be read, is not JSON, does not have the shape of a scene, or holds values that
+/// make no sense. The message names the file (without its folder) and the JSON path.
+pub fn load(path: &Path) -> Result<Scene, SceneError> {
+    let file =
+        path.file_name().map_or_else(|| "scene".to_owned(), |name| name.to_string_lossy().into_owned());
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| SceneError::new(&file, "", SceneProblem::Unreadable { kind: error.kind() }))?;
+    from_json(&text, &file)
+}
+
+/// Checks a scene given as text; `file` is the name used in messages.
+///
+/// # Errors
+/// As [`load`].
+pub fn from_json(text: &str, file: &str) -> Result<Scene, SceneError> {
+    let mut scene = parse::parse(text, file)?;
+    file.clone_into(&mut scene.file);
+    check::check(&scene)?;
+    Ok(scene)
+}
+
+/// The JSON Schema of a scene, pretty-printed, with a final newline.
+#[must_use]
+pub fn schema() -> String {
+    let schema = schemars::schema_for!(Scene);
+    format!("{:#}\n", schema.as_value())
+}

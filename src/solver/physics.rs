@@ -50,10 +50,13 @@ pub trait Physics: Clone + Send + Sync + 'static {
     /// 1/(dσ/dγ̇) of a cell, zero where rigid \[B3\].
     fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L;
 
-    /// Apparent slip of the wall \[B3\].
+    /// Odd non-equilibrium that relaxes with ω⁻ \[B3\].
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q];
+
+    /// Velocity that the curvature of the profile adds over half a cell \[B3\].
     #[inline(always)]
-    fn wall_slip<L: Lane>(&self, tangential: &[L; 3], rho: L, fluidity: L, odd_omega: L) -> [L; 3] {
-        wall_slip::wall_slip(tangential, rho, fluidity, odd_omega)
+    fn curvature_velocity<L: Lane>(&self, tangential: &[L; 3], fluidity: L) -> [L; 3] {
+        wall_slip::curvature_velocity(tangential, fluidity)
     }
 }
 
@@ -89,6 +92,11 @@ impl<R: Rheology, C: Collision> Physics for Standard<R, C> {
     #[inline(always)]
     fn odd_omega<L: Lane>(&self, omega: L) -> L {
         self.collision.odd_omega(omega)
+    }
+
+    #[inline(always)]
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        self.collision.odd_departure(h, m)
     }
 
     #[inline(always)]

@@ -50,7 +50,7 @@ pub enum YieldTreatment {
 pub enum WallRule {
     /// [B1] as it stands.
     HalfWay,
-    /// [B3]: the wall velocity minus the known slip, so that it does not depend on viscosity.
+    /// [B3]: corrected for the known slip, so that it does not depend on viscosity.
     ViscosityIndependent,
 }
 
@@ -125,7 +125,7 @@ impl Setup {
             fluids: vec![law],
             yielding: YieldTreatment::Exact,
             collision: CollisionChoice::default(),
-            wall_rule: WallRule::HalfWay,
+            wall_rule: WallRule::ViscosityIndependent,
             stress_source: false,
             force: BodyForce::Constant([0.0; 3]),
             initial: None,

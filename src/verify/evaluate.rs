@@ -110,9 +110,9 @@ fn check_order(claim: &Claim, samples: &[Sample], reasons: &mut Vec<String>) -> 
         (fitted.order - band.expected).abs() <= band.band
     };
     if !within {
-        let sign = if band.at_least { "at least" } else { "" };
+        let sign = if band.at_least { "at least " } else { "" };
         reasons.push(format!(
-            "order {:.3} in {}, expected {sign} {} ± {}",
+            "order {:.3} in {}, expected {sign}{} ± {}",
             fitted.order,
             symbol(claim.ladder.parameter),
             band.expected,

@@ -168,6 +168,7 @@ pub mod number {
                 ///
                 /// # Errors
                 /// Those of the serialiser.
+                #[allow(clippy::ptr_arg, reason = "serde passes the field's own type")]
                 pub fn serialize<S: Serializer>($x: &$type, s: S) -> Result<S::Ok, S::Error> {
                     let written: $written = $write;
                     written.serialize(s)

@@ -1,7 +1,7 @@
 //! What one cell does in one step. Everything here reads the previous array only.
 
 use crate::boundary::links::{BoundaryCell, CellKind, Links, Source};
-use crate::boundary::wall_slip::{pressure_slope, stress_source, tangential};
+use crate::boundary::wall_slip::{link_correction, pressure_slope, stress_source, tangential};
 use crate::lattice::moments::{Moments, add_third, density_excess, deviator};
 use crate::lattice::{C, Q, opposite};
 use crate::solver::physics::Physics;
@@ -55,18 +55,37 @@ pub fn residual_force(f: &[Cell], links: &Links, cell: usize, force: &[f64; 3]) 
     })
 }
 
-/// Wall slip of a boundary cell holding fluid number `fluid` \[B3\].
-pub fn slip<P: Physics>(
+/// What the viscosity-independent wall subtracts from the populations leaving a boundary cell that
+/// holds fluid number `fluid` \[B3\]; `sourced`: whether \[K6\] acts.
+pub fn wall_correction<P: Physics>(
     physics: &P,
     record: &BoundaryCell,
+    h: &Cell,
     state: &State,
     residual: &[f64; 3],
     fluid: u8,
-) -> [f64; 3] {
+    sourced: bool,
+) -> Cell {
+    let is_wall = |i: usize| matches!(record.sources[opposite(i)], Source::Wall(_));
+    let mut excess = [0.0; Q];
+    if sourced {
+        add_stress_source(physics, &mut excess, state, residual);
+    }
+    let keep = 2.0 - physics.odd_omega(state.omega);
+    let departure = physics.odd_departure(h, &state.m);
+    for i in 1..Q {
+        excess[i] += keep * departure[i];
+    }
+    let mut correction = link_correction(&excess, is_wall);
     let q = physics.stress_magnitude(&state.m);
     let fluidity = physics.tangent_fluidity(fluid, state.m.rho, state.omega, q);
-    let along = tangential(residual, &record.normal);
-    physics.wall_slip(&along, state.m.rho, fluidity, physics.odd_omega(state.omega))
+    let curved = physics.curvature_velocity(&tangential(residual, &record.normal), fluidity);
+    for i in 1..Q {
+        if is_wall(i) {
+            correction[i] -= physics.wall(0.0, i, state.m.rho, &curved);
+        }
+    }
+    correction
 }
 
 /// Adds the source of \[K6\] to post-collision populations.
@@ -82,7 +101,7 @@ pub fn gather<P: Physics>(
     physics: &P,
     post: &[Cell],
     links: &Links,
-    slips: &[[f64; 3]],
+    corrections: &[Cell],
     cell: usize,
     at: [usize; 3],
 ) -> Cell {
@@ -90,14 +109,18 @@ pub fn gather<P: Physics>(
         CellKind::Solid => [0.0; Q],
         CellKind::Bulk => std::array::from_fn(|i| post[links.upstream(at, i)][i]),
         CellKind::Boundary(slot) => {
-            let slip = slips.get(slot).copied().unwrap_or([0.0; 3]);
-            gather_boundary(physics, post, &links.boundary()[slot], slip)
+            gather_boundary(physics, post, &links.boundary()[slot], corrections.get(slot))
         }
     }
 }
 
 /// Streaming into a cell that touches a wall, a solid or a mirror plane \[B1\]–\[B3\].
-fn gather_boundary<P: Physics>(physics: &P, post: &[Cell], record: &BoundaryCell, slip: [f64; 3]) -> Cell {
+fn gather_boundary<P: Physics>(
+    physics: &P,
+    post: &[Cell],
+    record: &BoundaryCell,
+    correction: Option<&Cell>,
+) -> Cell {
     let own = &post[record.cell as usize];
     let rho = 1.0 + density_excess(own);
     std::array::from_fn(|i| match record.sources[i] {
@@ -106,8 +129,8 @@ fn gather_boundary<P: Physics>(physics: &P, post: &[Cell], record: &BoundaryCell
         Source::Wall(u) => {
             let out = opposite(i);
             debug_assert_eq!(C[out][0], -C[i][0]);
-            let u_wall = [u[0] - slip[0], u[1] - slip[1], u[2] - slip[2]];
-            physics.wall(own[out], out, rho, &u_wall)
+            let leaving = own[out] - correction.map_or(0.0, |c| c[out]);
+            physics.wall(leaving, out, rho, &u)
         }
     })
 }

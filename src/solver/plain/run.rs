@@ -27,8 +27,8 @@ pub struct PlainRun<P> {
     post: Vec<Cell>,
     /// ω⁺ of the previous step; only for the lagged treatment.
     previous_omega: Vec<f64>,
-    /// Wall slip per boundary cell; only for the viscosity-independent wall.
-    slips: Vec<[f64; 3]>,
+    /// Wall correction per boundary cell; only for the viscosity-independent wall.
+    corrections: Vec<Cell>,
     step: u64,
     pool: Option<rayon::ThreadPool>,
 }
@@ -55,9 +55,9 @@ impl<P: Physics> PlainRun<P> {
         let lagged = matches!(setup.yielding, YieldTreatment::LaggedClamped { .. });
         let previous_omega =
             if lagged { (0..cells).map(|cell| starting_omega(setup, cell)).collect() } else { Vec::new() };
-        let slips = match setup.wall_rule {
+        let corrections = match setup.wall_rule {
             WallRule::HalfWay => Vec::new(),
-            WallRule::ViscosityIndependent => vec![[0.0; 3]; links.boundary().len()],
+            WallRule::ViscosityIndependent => vec![[0.0; Q]; links.boundary().len()],
         };
         let pool = (setup.threads > 1 && cells > CHUNK)
             .then(|| rayon::ThreadPoolBuilder::new().num_threads(setup.threads).build().ok())
@@ -69,7 +69,7 @@ impl<P: Physics> PlainRun<P> {
             f,
             post: vec![[0.0; Q]; cells],
             previous_omega,
-            slips,
+            corrections,
             step: 0,
             pool,
         })
@@ -91,17 +91,24 @@ impl<P: Physics> PlainRun<P> {
         cell::state(&self.physics, &self.f[cell], force, fluid, previous)
     }
 
-    /// Slip of every wall cell \[B3\], before ω⁺ of the previous step is overwritten.
+    /// Correction of every wall cell \[B3\], before ω⁺ of the previous step is overwritten.
     fn wall_pass(&mut self, force: &[f64; 3]) {
-        for slot in 0..self.slips.len() {
+        for slot in 0..self.corrections.len() {
             let record = &self.links.boundary()[slot];
             if record.touches_wall {
                 let at = record.cell as usize;
                 let residual = cell::residual_force(&self.f, &self.links, at, force);
-                self.slips[slot] = {
-                    let fluid = self.setup.fluid_of_cell.get(at).copied().unwrap_or(0);
-                    cell::slip(&self.physics, record, &self.state(at, force), &residual, fluid)
-                };
+                let fluid = self.setup.fluid_of_cell.get(at).copied().unwrap_or(0);
+                let state = self.state(at, force);
+                self.corrections[slot] = cell::wall_correction(
+                    &self.physics,
+                    record,
+                    &self.f[at],
+                    &state,
+                    &residual,
+                    fluid,
+                    self.setup.stress_source,
+                );
             }
         }
     }
@@ -192,7 +199,7 @@ impl<P: Physics> PlainRun<P> {
             let mut at = this.setup.coordinates(k * CHUNK);
             for (offset, out) in chunk.iter_mut().enumerate() {
                 let cell = k * CHUNK + offset;
-                *out = cell::gather(&this.physics, &this.post, &this.links, &this.slips, cell, at);
+                *out = cell::gather(&this.physics, &this.post, &this.links, &this.corrections, cell, at);
                 at[0] += 1;
                 if at[0] == nx {
                     at = [0, at[1] + 1, at[2]];
@@ -314,8 +321,8 @@ impl<P: Physics> Run for PlainRun<P> {
     fn allocated_bytes(&self) -> u64 {
         let cells = (self.f.len() + self.post.len()) * size_of::<Cell>();
         let lag = self.previous_omega.len() * size_of::<f64>();
-        let slips = self.slips.len() * size_of::<[f64; 3]>();
+        let walls = self.corrections.len() * size_of::<Cell>();
         let marks = self.setup.solids.len() + self.setup.fluid_of_cell.len();
-        (cells + lag + slips + marks) as u64 + self.links.bytes()
+        (cells + lag + walls + marks) as u64 + self.links.bytes()
     }
 }

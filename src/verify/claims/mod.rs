@@ -3,6 +3,7 @@
 use super::study::Study;
 
 pub mod moments;
+pub mod mutants_physics;
 pub mod poiseuille;
 pub mod stability;
 pub mod unsteady;

@@ -50,10 +50,8 @@ impl Change {
         let Some(differences) = &self.differences else { return Some(format!("- `{}`: new", self.id)) };
         let worse = |a: &Difference, b: &Difference| a.relative.total_cmp(&b.relative);
         let numbers = differences.iter().filter(|d| d.relative.is_finite());
-        match numbers.max_by(|a, b| worse(a, b)).or(differences.first()) {
-            Some(worst) => Some(format!("- `{}`: {} places, worst {worst}", self.id, differences.len())),
-            None => None,
-        }
+        let worst = numbers.max_by(|a, b| worse(a, b)).or(differences.first())?;
+        Some(format!("- `{}`: {} places, worst {worst}", self.id, differences.len()))
     }
 }
 

@@ -1,0 +1,147 @@
+//! What can only be judged in numbers.
+
+use super::cells::{Cells, holds_a_cell};
+use super::error::PlanProblem;
+use super::memory::MOST_BYTES_PER_CELL;
+use super::numbers::Numbers;
+use crate::rheology::Law;
+use crate::scene::Scene;
+use crate::solver::setup::{BodyForce, Setup, WallRule};
+
+/// Largest Mach number; 0.5 is 0.29 cells per step, where the O(Ma²) errors are a quarter.
+const MACH_MAX: f64 = 0.5;
+/// Least plastic τ, the first column of the stability table.
+const TAU_MIN: f64 = 0.5005;
+/// Largest plastic τ of the operators whose walls do not depend on it.
+const TAU_MAX: f64 = 50.0;
+/// Largest plastic τ of one-rate operators with half-way walls.
+const TAU_MAX_ONE_RATE: f64 = 3.0;
+/// Integers up to here are exact in f64.
+const STEPS_MAX: f64 = 9e15;
+
+/// Predicted bytes against the available ones, before anything is allocated.
+pub(super) fn memory(scene: &Scene, available: Option<u64>) -> Result<(), PlanProblem> {
+    let cells = super::cells::extents(&scene.domain).iter().map(|&n| n as u128).product::<u128>();
+    let needed = cells * u128::from(MOST_BYTES_PER_CELL);
+    match available {
+        Some(bytes) if needed > u128::from(bytes) => Err(PlanProblem::OutOfMemory {
+            cells: u64::try_from(cells).unwrap_or(u64::MAX),
+            needed_gib: gib(needed as f64),
+            available_gib: gib(bytes as f64),
+        }),
+        _ => Ok(()),
+    }
+}
+
+fn gib(bytes: f64) -> f64 {
+    bytes / (1024.0 * 1024.0 * 1024.0)
+}
+
+/// Every solid and layer must hold a cell centre.
+pub(super) fn shapes(scene: &Scene) -> Result<(), (String, PlanProblem)> {
+    let solids = scene.solids.iter().enumerate();
+    let solids = solids.map(|(i, s)| (format!("solids[{i}].shape"), &s.name, &s.shape, s.invert));
+    let layers = scene.layers.iter().enumerate();
+    let layers = layers.map(|(i, l)| (format!("layers[{i}].shape"), &l.name, &l.shape, false));
+    for (path, name, shape, invert) in solids.chain(layers) {
+        if !holds_a_cell(shape, invert, &scene.domain) {
+            let spacing = scene.domain.spacing_m;
+            return Err((path, PlanProblem::NoCellCovered { name: name.clone(), spacing }));
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn some_fluid(cells: &Cells) -> Result<(), PlanProblem> {
+    if cells.fluid_cells == 0 {
+        return Err(PlanProblem::SolidEverywhere { cells: cells.solids.len() as u64 });
+    }
+    Ok(())
+}
+
+/// Steps to the end time, at least one.
+pub(super) fn steps(scene: &Scene, dt: f64) -> Result<u64, PlanProblem> {
+    let end = scene.stop.end_time_s;
+    let steps = (end / dt).round();
+    if !dt.is_finite() {
+        return Err(PlanProblem::NotFinite { quantity: "the time step", found: dt });
+    }
+    if steps < 1.0 {
+        return Err(PlanProblem::NoStep { end, dt });
+    }
+    if steps.is_nan() || steps > STEPS_MAX {
+        return Err(PlanProblem::TooManySteps { steps, dt, end });
+    }
+    Ok(steps as u64)
+}
+
+/// Magnitudes that overflow once they are in lattice units.
+pub(super) fn finite(setup: &Setup) -> Result<(), PlanProblem> {
+    let finite = |quantity, values: &[f64]| match values.iter().find(|v| !v.is_finite()) {
+        Some(&found) => Err(PlanProblem::NotFinite { quantity, found }),
+        None => Ok(()),
+    };
+    for law in &setup.fluids {
+        match *law {
+            Law::Newtonian { mu } => finite("the viscosity", &[mu])?,
+            Law::Bingham { sigma0, mu } => finite("the law", &[sigma0, mu])?,
+            Law::HerschelBulkley { sigma0, k, n } => finite("the law", &[sigma0, k, n])?,
+            Law::PowerLaw { k, n } => finite("the law", &[k, n])?,
+            Law::Papanastasiou { sigma0, k, n, m } => finite("the law", &[sigma0, k, n, m])?,
+        }
+    }
+    match setup.force {
+        BodyForce::Constant(f) => finite("the body force", &f),
+        BodyForce::Oscillating { mean, amplitude, frequency, phase } => {
+            finite("the body force", &mean)?;
+            finite("the body force", &amplitude)?;
+            finite("the oscillation", &[frequency, phase])
+        }
+        BodyForce::Stepped { before, after, .. } => {
+            finite("the body force", &before)?;
+            finite("the body force", &after)
+        }
+    }
+}
+
+/// Mach number, τ and stability.
+pub(super) fn numbers(numbers: &Numbers, setup: &Setup) -> Result<(), PlanProblem> {
+    let dt = numbers.time_step_s;
+    if !numbers.tau_plastic.is_finite() {
+        return Err(PlanProblem::NotFinite { quantity: "the relaxation time", found: numbers.tau_plastic });
+    }
+    if numbers.mach > MACH_MAX {
+        return Err(PlanProblem::MachTooHigh {
+            mach: numbers.mach,
+            speed: numbers.reference_velocity_m_per_s,
+            dt,
+            limit: MACH_MAX,
+            dt_max: dt * MACH_MAX / numbers.mach,
+            given: !numbers.time_step_rule.chosen(),
+        });
+    }
+    let tau = numbers.tau_plastic;
+    if tau < TAU_MIN {
+        return Err(PlanProblem::TauTooSmall { tau, dt, limit: TAU_MIN });
+    }
+    let walls = numbers.gap_cells.is_finite() && setup.wall_rule == WallRule::HalfWay;
+    let one_rate = matches!(numbers.operator, "bgk" | "regularised");
+    let (limit, because) = if one_rate && walls {
+        (TAU_MAX_ONE_RATE, "half-way walls slip by (16(τ−½)² − 3)/(3N²) of the mean flow [B1]")
+    } else {
+        (TAU_MAX, "beyond it a step is longer than 16 diffusion times of a cell [L6]")
+    };
+    if tau > limit {
+        let dt_max = dt * (limit - 0.5) / (tau - 0.5);
+        return Err(PlanProblem::TauTooLarge { tau, dt, limit, operator: numbers.operator, because, dt_max });
+    }
+    match numbers.stable_speed {
+        Some(limit) if numbers.speed_lattice > limit => Err(PlanProblem::Unstable {
+            speed: numbers.speed_lattice,
+            limit,
+            tau: numbers.tau_min,
+            operator: numbers.operator,
+        }),
+        _ => Ok(()),
+    }
+}

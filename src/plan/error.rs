@@ -1,0 +1,68 @@
+//! What can be wrong with a scene once it is put into numbers.
+
+use crate::scene::Located;
+
+/// A problem found while planning a scene.
+pub type PlanError = Located<PlanProblem>;
+
+/// What is wrong. Every message says what was found, what is allowed and why, and a way out.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PlanProblem {
+    /// No fluid cell left.
+    #[error(
+        "solids cover all {cells} cells\n  allowed: at least one fluid cell; a cell is solid if its centre is inside\n  way out: smaller solids, a finer `domain.spacing_m`, or check `invert`"
+    )]
+    SolidEverywhere { cells: u64 },
+    /// A shape between the cell centres.
+    #[error(
+        "`{name}` holds no cell centre\n  allowed: shapes with at least one; a cell belongs to a shape if its centre is inside\n  way out: a shape larger than the spacing of {spacing} m, or a finer spacing"
+    )]
+    NoCellCovered { name: String, spacing: f64 },
+    /// More memory than there is.
+    #[error(
+        "{cells} cells need {needed_gib:.2} GiB\n  allowed: at most the {available_gib:.2} GiB that are available\n  way out: a coarser `domain.spacing_m`, or one cell along periodic axes on which nothing changes"
+    )]
+    OutOfMemory { cells: u64, needed_gib: f64, available_gib: f64 },
+    /// Too fast.
+    #[error("found Mach number {mach:.3}: {speed:.4e} m/s at a time step of {dt:.3e} s\n  allowed: at most {limit}; the equilibrium is of second order in Ma [L3]\n  way out: a time step of at most {dt_max:.3e} s{}", or_leave(*.given))]
+    MachTooHigh { mach: f64, speed: f64, dt: f64, limit: f64, dt_max: f64, given: bool },
+    /// τ too near ½.
+    #[error(
+        "found a relaxation time of {tau:.6} at a time step of {dt:.3e} s\n  allowed: at least {limit}, the least for which stability is tabulated [K5] [L6]\n  way out: a finer `domain.spacing_m` (τ − ½ grows as Δt/Δx²), or a larger viscosity"
+    )]
+    TauTooSmall { tau: f64, dt: f64, limit: f64 },
+    /// τ too large.
+    #[error(
+        "found a relaxation time of {tau:.4} at a time step of {dt:.3e} s\n  allowed: at most {limit} with {operator}: {because}\n  way out: a time step of at most {dt_max:.3e} s"
+    )]
+    TauTooLarge { tau: f64, dt: f64, limit: f64, operator: &'static str, because: &'static str, dt_max: f64 },
+    /// Beyond the stability table.
+    #[error(
+        "found a speed of {speed:.4} cells per step with {operator} at a relaxation time of {tau:.4}\n  allowed: at most {limit:.4}, the von Neumann limit [K5]\n  way out: a smaller time step, a larger viscosity, or `central_moment`"
+    )]
+    Unstable { speed: f64, limit: f64, tau: f64, operator: &'static str },
+    /// Nothing says how fast the flow is.
+    #[error(
+        "no velocity scale: nothing drives the fluid, and its viscosity depends on the shear rate\n  allowed: flows whose speed can be estimated, or a time step [L6]\n  way out: give `numerics.reference_velocity_m_per_s` or `numerics.time_step_s`"
+    )]
+    NoVelocityScale,
+    /// Steps that cannot be counted.
+    #[error(
+        "{steps:.3e} steps of {dt:.3e} s to reach {end} s\n  allowed: at most 9e15, the integers exact in 64-bit floating point\n  way out: an earlier `stop.end_time_s`"
+    )]
+    TooManySteps { steps: f64, dt: f64, end: f64 },
+    /// End before the first step.
+    #[error(
+        "the end time of {end} s is less than half a time step of {dt} s\n  allowed: at least one step\n  way out: a smaller `numerics.time_step_s`"
+    )]
+    NoStep { end: f64, dt: f64 },
+    /// A scale that left the range of 64-bit numbers.
+    #[error(
+        "{quantity} is {found} in lattice units\n  allowed: finite numbers\n  way out: check the magnitudes of spacing, density and viscosity"
+    )]
+    NotFinite { quantity: &'static str, found: f64 },
+}
+
+fn or_leave(given: bool) -> &'static str {
+    if given { ", or leave `numerics` to `plan`" } else { "" }
+}

@@ -1,0 +1,118 @@
+//! Scene and units to the lattice set-up.
+
+use super::cells::Cells;
+use super::initial::initial_flow;
+use super::law::to_lattice;
+use super::scale::total_force;
+use crate::collision::{CollisionChoice, OddRate};
+use crate::scene::{
+    BodyForce as SceneForce, Boundary, ClampLimits, Collision, Operator, Scene, WallChoice, YieldChoice,
+};
+use crate::solver::setup::{BodyForce, Face, Setup, SolidMotion, WallRule, YieldTreatment};
+use crate::units::Units;
+
+/// The set-up of a scene.
+#[must_use]
+pub fn lower(scene: &Scene, units: &Units, cells: Cells) -> Setup {
+    let mut setup = Setup::periodic(cells.extents, to_lattice(&scene.fluid.rheology, units));
+    setup.faces = scene.domain.boundaries.by_axis().map(|faces| faces.map(|face| lower_face(face, units)));
+    setup.fluids.extend(scene.layers.iter().map(|layer| to_lattice(&layer.rheology, units)));
+    setup.initial = initial_flow(scene, units, cells.extents);
+    setup.solids = cells.solids;
+    setup.fluid_of_cell = cells.fluid_of_cell;
+    setup.solid_motion = solid_motion(scene, units);
+    setup.yielding = yield_treatment(&scene.numerics.yield_treatment, units);
+    setup.collision = collision(&scene.numerics.collision);
+    setup.wall_rule = match scene.numerics.wall_rule {
+        WallChoice::HalfWay => WallRule::HalfWay,
+        WallChoice::ViscosityIndependent => WallRule::ViscosityIndependent,
+    };
+    setup.stress_source = scene.numerics.stress_source;
+    setup.force = force(&total_force(scene), units);
+    setup
+}
+
+fn lower_face(face: Boundary, units: &Units) -> Face {
+    match face {
+        Boundary::Periodic => Face::Periodic,
+        Boundary::NoSlip => Face::NoSlip,
+        Boundary::MovingWall { velocity_m_per_s } => {
+            Face::Moving(units.velocities_to_lattice(velocity_m_per_s))
+        }
+        Boundary::FreeSlip => Face::FreeSlip,
+    }
+}
+
+fn solid_motion(scene: &Scene, units: &Units) -> Vec<SolidMotion> {
+    let motion = |solid: &crate::scene::Solid| SolidMotion {
+        velocity: units.velocities_to_lattice(solid.velocity_m_per_s),
+        spin: solid.spin_rad_per_s.map(|w| units.rate_to_lattice(w)),
+        centre: solid.centre_m.unwrap_or_else(|| solid.shape.centre()).map(|x| units.length_to_lattice(x)),
+    };
+    scene.solids.iter().map(motion).collect()
+}
+
+/// The collision operator with defaults filled in.
+#[must_use]
+pub fn collision(choice: &Collision) -> CollisionChoice {
+    let default = OddRate::default();
+    let odd = OddRate {
+        magic: choice.magic.unwrap_or(default.magic),
+        floor: choice.floor.unwrap_or(default.floor),
+        lowered_below: choice.lowered_below.unwrap_or(default.lowered_below),
+    };
+    match choice.operator {
+        Operator::Bgk => CollisionChoice::Bgk,
+        Operator::Trt => CollisionChoice::Trt(odd),
+        Operator::CentralMoment => CollisionChoice::CentralMoment(odd),
+        Operator::Regularised => CollisionChoice::Regularised,
+    }
+}
+
+/// The yield treatment with its limits as relaxation times.
+#[must_use]
+pub fn yield_treatment(choice: &YieldChoice, units: &Units) -> YieldTreatment {
+    match choice {
+        YieldChoice::Exact => YieldTreatment::Exact,
+        YieldChoice::ImplicitClamped(limits) => {
+            let (tau_min, tau_max) = clamp(limits, units);
+            YieldTreatment::ImplicitClamped { tau_min, tau_max }
+        }
+        YieldChoice::LaggedClamped(limits) => {
+            let (tau_min, tau_max) = clamp(limits, units);
+            YieldTreatment::LaggedClamped { tau_min, tau_max }
+        }
+    }
+}
+
+/// The scene's checks leave exactly one complete pair.
+fn clamp(limits: &ClampLimits, units: &Units) -> (f64, f64) {
+    let tau = |tau: Option<f64>, viscosity: Option<f64>, none: f64| {
+        tau.or_else(|| viscosity.map(|mu| units.tau_of_viscosity(mu))).unwrap_or(none)
+    };
+    (
+        tau(limits.tau_min, limits.viscosity_min_pa_s, 0.5),
+        tau(limits.tau_max, limits.viscosity_max_pa_s, f64::INFINITY),
+    )
+}
+
+fn force(force: &SceneForce, units: &Units) -> BodyForce {
+    let lattice = |f| units.forces_to_lattice(f);
+    match *force {
+        SceneForce::Constant { force_n_per_m3 } => BodyForce::Constant(lattice(force_n_per_m3)),
+        SceneForce::Oscillating { mean_n_per_m3, amplitude_n_per_m3, frequency_hz, phase_rad } => {
+            BodyForce::Oscillating {
+                mean: lattice(mean_n_per_m3),
+                amplitude: lattice(amplitude_n_per_m3),
+                frequency: units.rate_to_lattice(std::f64::consts::TAU * frequency_hz),
+                phase: phase_rad,
+            }
+        }
+        SceneForce::Stepped { before_n_per_m3, after_n_per_m3, at_s } => BodyForce::Stepped {
+            before: lattice(before_n_per_m3),
+            after: lattice(after_n_per_m3),
+            // A negative time was refused; a cast saturates.
+            at: units.time_to_lattice(at_s).round() as u64,
+        },
+    }
+}

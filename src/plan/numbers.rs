@@ -1,0 +1,347 @@
+//! The numbers `lahar plan` shows.
+
+use serde::Serialize;
+
+use super::law::{self, apparent_viscosity, has_plug, plastic_viscosity};
+use super::memory::{Item, items};
+use super::scale::{Scales, norm};
+use crate::stability::max_stable_speed;
+use super::time_step::{StepRule, reference_viscosity};
+use crate::collision::CollisionChoice;
+use crate::scene::{Rheology, Scene};
+use crate::solver::setup::{BodyForce, Face, Setup, WallRule, YieldTreatment};
+use crate::units::Units;
+
+/// Cell updates per second assumed for the cost estimate: plain backend, one thread.
+const UPDATES_PER_SECOND: f64 = 4e6;
+
+/// A pass over the cells, and whether this run has it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Need {
+    /// The pass.
+    pub pass: &'static str,
+    /// Whether the run has it.
+    pub needed: bool,
+    /// Why, or why not.
+    pub because: &'static str,
+}
+
+/// Everything `lahar plan` shows. Infinite numbers are `null` in JSON.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Numbers {
+    /// The scene's title, or its file name.
+    pub title: String,
+    /// Cells along x, y, z.
+    pub extents: [usize; 3],
+    /// Cells that hold fluid.
+    pub fluid_cells: u64,
+    /// Cells inside solids.
+    pub solid_cells: u64,
+    /// Cell size, m.
+    pub spacing_m: f64,
+    /// Widest gap between walls, cells; infinite without walls.
+    pub gap_cells: f64,
+    /// Time step, s.
+    pub time_step_s: f64,
+    /// What fixed the time step.
+    pub time_step_rule: StepRule,
+    /// End time, s.
+    pub end_time_s: f64,
+    /// Steps to the end time.
+    pub steps: u64,
+    /// Expected largest velocity, m/s.
+    pub reference_velocity_m_per_s: f64,
+    /// The same, cells per step.
+    pub speed_lattice: f64,
+    /// Length of the Reynolds number, m.
+    pub reference_length_m: f64,
+    /// ρ U^(2−n) Lⁿ / K.
+    pub reynolds: f64,
+    /// σ0 Lⁿ / (K Uⁿ); 0 without yield stress, infinite at rest.
+    pub bingham: f64,
+    /// U over the speed of sound.
+    pub mach: f64,
+    /// Collision operator.
+    pub operator: &'static str,
+    /// τ of the plastic viscosity.
+    pub tau_plastic: f64,
+    /// Least τ expected.
+    pub tau_min: f64,
+    /// Largest τ; infinite when cells can be unyielded.
+    pub tau_max: f64,
+    /// Largest stable speed at the least τ, cells per step, where it is known.
+    pub stable_speed: Option<f64>,
+    /// It over the expected speed.
+    pub stability_margin: Option<f64>,
+    /// Speed at which an unyielded solid held by walls slips, m/s: 2θ f Δt/ρ \[K3\].
+    pub plug_slip_m_per_s: f64,
+    /// The same over the whole run, m.
+    pub plug_slip_m: f64,
+    /// Bytes per cell of each feature.
+    pub memory: Vec<Item>,
+    /// Bytes per cell, all features.
+    pub bytes_per_cell: u64,
+    /// Bytes of the run.
+    pub bytes: u64,
+    /// Passes.
+    pub passes: Vec<Need>,
+    /// Cell updates in the whole run.
+    pub cell_updates: f64,
+    /// Rough duration on one thread, s.
+    pub estimated_seconds: f64,
+    /// What to think about before running.
+    pub warnings: Vec<String>,
+}
+
+/// What the numbers follow from.
+pub(super) struct Given<'a> {
+    pub scene: &'a Scene,
+    pub units: &'a Units,
+    pub setup: &'a Setup,
+    pub scales: &'a Scales,
+    pub rule: StepRule,
+    pub steps: u64,
+    pub gap: f64,
+    pub fluid_cells: u64,
+}
+
+pub(super) fn numbers(given: &Given) -> Numbers {
+    let Given { scene, units, setup, scales, .. } = *given;
+    let cells = setup.extents.iter().map(|&n| n as u64).product::<u64>();
+    let p = law::parameters(&scene.fluid.rheology);
+    let (u, length) = (scales.velocity, scales.length);
+    let speed_lattice = units.velocity_to_lattice(u);
+    let plastic = reference_viscosity(scene, scales).unwrap_or(f64::NAN);
+    let (tau_min, tau_max) = tau_range(given);
+    let tau_min = if tau_min.is_finite() { tau_min } else { units.tau_of_viscosity(plastic) };
+    let stable_speed = max_stable_speed(&setup.collision, tau_min).ok().map(|limit| limit.speed);
+    let slip = plug_slip(given);
+    let memory = items(setup);
+    let bytes_per_cell = memory.iter().map(|item| item.bytes_per_cell).sum::<u64>();
+    let cell_updates = given.fluid_cells as f64 * given.steps as f64;
+    // K Uⁿ/Lⁿ, the viscous stress scale.
+    let viscous = p.k * libm::pow(u / length, p.n);
+    let mut numbers = Numbers {
+        title: scene.title.clone().unwrap_or_else(|| scene.file.clone()),
+        extents: setup.extents,
+        fluid_cells: given.fluid_cells,
+        solid_cells: cells - given.fluid_cells,
+        spacing_m: units.dx_m,
+        gap_cells: given.gap,
+        time_step_s: units.dt_s,
+        time_step_rule: given.rule,
+        end_time_s: scene.stop.end_time_s,
+        steps: given.steps,
+        reference_velocity_m_per_s: u,
+        speed_lattice,
+        reference_length_m: length,
+        reynolds: if u > 0.0 { units.rho0_kg_per_m3 * u * u / viscous } else { 0.0 },
+        bingham: if p.sigma0 > 0.0 { p.sigma0 / viscous } else { 0.0 },
+        mach: speed_lattice * 3.0_f64.sqrt(),
+        operator: operator(&setup.collision),
+        tau_plastic: if plastic.is_nan() { tau_min } else { units.tau_of_viscosity(plastic) },
+        tau_min,
+        tau_max,
+        stable_speed,
+        stability_margin: stable_speed.filter(|_| speed_lattice > 0.0).map(|limit| limit / speed_lattice),
+        plug_slip_m_per_s: slip,
+        plug_slip_m: slip * scene.stop.end_time_s,
+        memory,
+        bytes_per_cell,
+        bytes: bytes_per_cell * cells,
+        passes: passes(scene, setup),
+        cell_updates,
+        estimated_seconds: cell_updates / UPDATES_PER_SECOND,
+        warnings: Vec::new(),
+    };
+    numbers.warnings = warnings(&numbers, scene, setup);
+    numbers
+}
+
+fn operator(collision: &CollisionChoice) -> &'static str {
+    match collision {
+        CollisionChoice::Bgk => "bgk",
+        CollisionChoice::Trt(_) => "trt",
+        CollisionChoice::CentralMoment(_) => "central_moment",
+        CollisionChoice::Regularised => "regularised",
+    }
+}
+
+/// Least and largest τ over all fluids, between rest and the largest expected shear rate.
+fn tau_range(given: &Given) -> (f64, f64) {
+    let laws = std::iter::once(&given.scene.fluid.rheology);
+    let laws = laws.chain(given.scene.layers.iter().map(|layer| &layer.rheology));
+    let mut range = (f64::INFINITY, 0.5);
+    for law in laws {
+        let at_rest = at_rest(law, given.units);
+        let fastest = given.scales.shear_rate_max;
+        let fast = if fastest > 0.0 {
+            given.units.tau_of_viscosity(apparent_viscosity(law, fastest))
+        } else {
+            at_rest
+        };
+        let (low, high) = if fast < at_rest { (fast, at_rest) } else { (at_rest, fast) };
+        range.0 = if low < range.0 { low } else { range.0 };
+        range.1 = if high > range.1 { high } else { range.1 };
+    }
+    match given.setup.yielding {
+        YieldTreatment::Exact => range,
+        YieldTreatment::ImplicitClamped { tau_min, tau_max }
+        | YieldTreatment::LaggedClamped { tau_min, tau_max } => {
+            let clamp = |tau: f64| {
+                if tau < tau_min {
+                    tau_min
+                } else if tau > tau_max {
+                    tau_max
+                } else {
+                    tau
+                }
+            };
+            (clamp(range.0), clamp(range.1))
+        }
+    }
+}
+
+/// τ in the limit of vanishing shear rate.
+fn at_rest(law: &Rheology, units: &Units) -> f64 {
+    let p = law::parameters(law);
+    let viscosity = match *law {
+        _ if has_plug(law) => f64::INFINITY,
+        Rheology::Papanastasiou { yield_stress_pa, growth_s, .. } if p.n >= 1.0 => {
+            yield_stress_pa * growth_s + plastic_viscosity(law, 0.0)
+        }
+        _ if p.n < 1.0 => f64::INFINITY,
+        _ if p.n == 1.0 => p.k,
+        _ => 0.0,
+    };
+    units.tau_of_viscosity(viscosity)
+}
+
+/// 2θ f Δt / ρ in m/s: the slip of an unyielded solid along the walls that hold it \[K3\].
+fn plug_slip(given: &Given) -> f64 {
+    let laws = std::iter::once(&given.scene.fluid.rheology);
+    let plug = laws.chain(given.scene.layers.iter().map(|layer| &layer.rheology)).any(has_plug);
+    let walls = given.gap.is_finite() && given.setup.wall_rule == WallRule::HalfWay;
+    let exact = given.setup.yielding == YieldTreatment::Exact;
+    if !(plug && walls && exact) {
+        return 0.0;
+    }
+    match given.setup.collision {
+        CollisionChoice::Trt(odd) | CollisionChoice::CentralMoment(odd) => {
+            2.0 * odd.floor * given.scales.force * given.units.dt_s / given.units.rho0_kg_per_m3
+        }
+        // Third moments without memory: ω⁻ = 1, τ⁻ − ½ = ½.
+        CollisionChoice::Regularised => given.scales.force * given.units.dt_s / given.units.rho0_kg_per_m3,
+        // One rate: τ⁻ = τ⁺ has no bound in a plug.
+        CollisionChoice::Bgk => f64::INFINITY,
+    }
+}
+
+fn passes(scene: &Scene, setup: &Setup) -> Vec<Need> {
+    let need = |pass, needed, because| Need { pass, needed, because };
+    let constant = setup.fluids.iter().all(|law| matches!(law, crate::rheology::Law::Newtonian { .. }));
+    let lagged = matches!(setup.yielding, YieldTreatment::LaggedClamped { .. });
+    let forced = match setup.force {
+        BodyForce::Constant(f) => norm(f) > 0.0,
+        BodyForce::Oscillating { .. } | BodyForce::Stepped { .. } => true,
+    };
+    let walls = setup.faces.iter().flatten().any(|face| *face != Face::Periodic);
+    vec![
+        if constant {
+            need("shear-rate solve", false, "all fluids are Newtonian: one relaxation time each")
+        } else {
+            need("shear-rate solve", true, "the viscosity depends on the shear rate [Y3]")
+        },
+        if lagged {
+            need("relaxation-time field", true, "the lagged scheme reads the previous step [Y4]")
+        } else {
+            need("relaxation-time field", false, "solved within the cell; nothing is stored")
+        },
+        if setup.solids.is_empty() {
+            need("solid lookup", false, "no solids inside the box")
+        } else {
+            need("solid lookup", true, "links may end in solids [B1]")
+        },
+        if setup.fluid_of_cell.is_empty() {
+            need("fluid lookup", false, "one fluid")
+        } else {
+            need("fluid lookup", true, "each cell names its fluid")
+        },
+        if walls {
+            need("wall links", true, "faces with walls or mirrors [B1] [B2]")
+        } else {
+            need("wall links", false, "all faces are periodic")
+        },
+        if forced {
+            need("body force", true, "gravity or a body force acts [L5]")
+        } else {
+            need("body force", false, "no force")
+        },
+        if setup.wall_rule == WallRule::ViscosityIndependent {
+            need("wall-slip correction", true, "`viscosity_independent` was chosen [B3]")
+        } else {
+            need("wall-slip correction", false, "plain half-way walls")
+        },
+        if setup.stress_source {
+            need("third-moment source", true, "`stress_source` was chosen [K6]")
+        } else {
+            need("third-moment source", false, "not chosen")
+        },
+        if scene.stop.steady.is_some() {
+            need("steadiness check", true, "`stop.steady` was given")
+        } else {
+            need("steadiness check", false, "runs to the end time")
+        },
+    ]
+}
+
+fn warnings(n: &Numbers, scene: &Scene, setup: &Setup) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let mut warn = |yes: bool, text: String| {
+        if yes {
+            warnings.push(text);
+        }
+    };
+    warn(
+        n.mach > 0.174,
+        format!("Mach number {:.3}: errors of order Ma² = {:.1} %", n.mach, 100.0 * n.mach * n.mach),
+    );
+    warn(
+        n.tau_plastic < 0.55,
+        format!(
+            "plastic relaxation time {:.4} is below 0.55: a finer spacing than {} m would be more accurate",
+            n.tau_plastic, n.spacing_m
+        ),
+    );
+    warn(
+        n.tau_plastic > 2.0,
+        format!("plastic relaxation time {:.2} is above 2: transients are smeared over steps", n.tau_plastic),
+    );
+    warn(n.gap_cells < 8.0, format!("only {} cells between walls: errors of several per cent", n.gap_cells));
+    warn(
+        n.stability_margin.is_some_and(|margin| margin < 2.0),
+        "less than a factor of 2 below the von Neumann limit".to_owned(),
+    );
+    warn(
+        n.plug_slip_m_per_s > 1e-3 * n.reference_velocity_m_per_s && n.plug_slip_m_per_s.is_finite(),
+        format!(
+            "an unyielded solid held by walls slips {:.2e} m/s, more than 1e-3 of the flow; a smaller time step or \
+             `viscosity_independent` walls reduce it",
+            n.plug_slip_m_per_s
+        ),
+    );
+    let plug =
+        std::iter::once(&scene.fluid.rheology).chain(scene.layers.iter().map(|l| &l.rheology)).any(has_plug);
+    warn(
+        plug && setup.yielding == YieldTreatment::Exact && n.operator != "central_moment",
+        format!(
+            "`{}` cannot bring a moving plug to rest with the exact yield stress; `central_moment` can [K3]",
+            n.operator
+        ),
+    );
+    warn(
+        n.reference_velocity_m_per_s == 0.0,
+        "nothing is expected to move: no force, wall or initial flow overcomes the yield stress".to_owned(),
+    );
+    warnings
+}

@@ -1,0 +1,232 @@
+//! How fast the flow is expected to be, from what drives it.
+
+use super::cells::Cells;
+use super::law::{channel_velocity, shear_rate};
+use crate::geometry::Axis;
+use crate::scene::{BodyForce, Boundary, Gravity, InitialVelocity, Rheology, Scene};
+
+/// Expected scales, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales {
+    /// Largest velocity, m/s; 0 when nothing moves.
+    pub velocity: f64,
+    /// Length of the Reynolds number, m: the gap between walls, else the longest edge.
+    pub length: f64,
+    /// Shear rate that goes with them, 1/s: 2 U / L.
+    pub shear_rate: f64,
+    /// Largest shear rate expected, 1/s.
+    pub shear_rate_max: f64,
+    /// Largest magnitude of the body force, N/m³.
+    pub force: f64,
+}
+
+/// Gravity's force per volume, N/m³: ρ0 g.
+#[must_use]
+pub fn gravity_force(gravity: &Gravity, density: f64) -> [f64; 3] {
+    let weight = density * gravity.magnitude_m_per_s2;
+    if let Some(direction) = gravity.direction {
+        let norm = norm(direction);
+        return direction.map(|d| weight * d / norm);
+    }
+    let slope = gravity.slope_deg.unwrap_or(0.0).to_radians();
+    let mut force = [weight * libm::sin(slope), 0.0, 0.0];
+    force[gravity.bed_normal.unwrap_or(Axis::Z).index()] = -weight * libm::cos(slope);
+    force
+}
+
+/// Body force with gravity in it.
+#[must_use]
+pub fn total_force(scene: &Scene) -> BodyForce {
+    let weight =
+        scene.gravity.map_or([0.0; 3], |gravity| gravity_force(&gravity, scene.fluid.density_kg_per_m3));
+    let plus = |f: [f64; 3]| std::array::from_fn(|a| f[a] + weight[a]);
+    match scene.fluid.body_force {
+        None => BodyForce::Constant { force_n_per_m3: weight },
+        Some(BodyForce::Constant { force_n_per_m3 }) => {
+            BodyForce::Constant { force_n_per_m3: plus(force_n_per_m3) }
+        }
+        Some(BodyForce::Oscillating { mean_n_per_m3, amplitude_n_per_m3, frequency_hz, phase_rad }) => {
+            let mean_n_per_m3 = plus(mean_n_per_m3);
+            BodyForce::Oscillating { mean_n_per_m3, amplitude_n_per_m3, frequency_hz, phase_rad }
+        }
+        Some(BodyForce::Stepped { before_n_per_m3, after_n_per_m3, at_s }) => BodyForce::Stepped {
+            before_n_per_m3: plus(before_n_per_m3),
+            after_n_per_m3: plus(after_n_per_m3),
+            at_s,
+        },
+    }
+}
+
+/// Forces whose magnitudes bound the body force at all times.
+#[must_use]
+pub fn extreme_forces(force: &BodyForce) -> [[f64; 3]; 2] {
+    match *force {
+        BodyForce::Constant { force_n_per_m3 } => [force_n_per_m3; 2],
+        BodyForce::Oscillating { mean_n_per_m3: m, amplitude_n_per_m3: a, .. } => {
+            [std::array::from_fn(|i| m[i] + a[i]), std::array::from_fn(|i| m[i] - a[i])]
+        }
+        BodyForce::Stepped { before_n_per_m3, after_n_per_m3, .. } => [before_n_per_m3, after_n_per_m3],
+    }
+}
+
+/// Axes along which nothing can flow through: a face is a wall or a mirror.
+#[must_use]
+pub fn closed_axes(scene: &Scene) -> [bool; 3] {
+    scene.domain.boundaries.by_axis().map(|faces| faces[0] != Boundary::Periodic)
+}
+
+/// Scales of a scene.
+#[must_use]
+pub fn scales(scene: &Scene, cells: &Cells) -> Scales {
+    let dx = scene.domain.spacing_m;
+    let length = if cells.gap.is_finite() {
+        cells.gap * dx
+    } else {
+        scene.domain.size_m.into_iter().fold(0.0, greatest)
+    };
+    let force = total_force(scene);
+    let extremes = extreme_forces(&force);
+    let closed = closed_axes(scene);
+    let driving = extremes
+        .map(|f| norm(std::array::from_fn(|a| if closed[a] { 0.0 } else { f[a] })))
+        .into_iter()
+        .fold(0.0, greatest);
+    let laws = std::iter::once(&scene.fluid.rheology).chain(scene.layers.iter().map(|l| &l.rheology));
+    let laws: Vec<&Rheology> = laws.collect();
+    let half_gap = 0.5 * cells.gap * dx;
+    let driven = laws.iter().map(|law| driven_velocity(scene, law, driving, half_gap)).fold(0.0, greatest);
+    let walls = wall_speed(scene, cells);
+    let (initial, initial_rate) = initial_scales(scene);
+    let estimate = greatest(walls, initial) + driven;
+    let velocity = scene.numerics.reference_velocity_m_per_s.unwrap_or(estimate);
+    let wall_rate = if half_gap.is_finite() {
+        laws.iter().map(|law| shear_rate(law, driving * half_gap)).fold(0.0, greatest)
+    } else {
+        0.0
+    };
+    let rate = 2.0 * velocity / length;
+    Scales {
+        velocity,
+        length,
+        shear_rate: rate,
+        shear_rate_max: [wall_rate, initial_rate, rate].into_iter().fold(0.0, greatest),
+        force: extremes.map(norm).into_iter().fold(0.0, greatest),
+    }
+}
+
+/// The steady channel flow, or what the force can accelerate to before the end or within one
+/// oscillation, whichever is less.
+fn driven_velocity(scene: &Scene, law: &Rheology, driving: f64, half_gap: f64) -> f64 {
+    if driving == 0.0 {
+        return 0.0;
+    }
+    let acceleration = driving / scene.fluid.density_kg_per_m3;
+    let time = match scene.fluid.body_force {
+        Some(BodyForce::Oscillating { mean_n_per_m3: [0.0, 0.0, 0.0], frequency_hz, .. })
+            if scene.gravity.is_none() =>
+        {
+            1.0 / (std::f64::consts::TAU * frequency_hz)
+        }
+        _ => scene.stop.end_time_s,
+    };
+    let inertial = acceleration * time;
+    if half_gap.is_finite() { least(channel_velocity(law, driving, half_gap), inertial) } else { inertial }
+}
+
+/// Fastest wall: faces of the box and surfaces of solids, m/s.
+fn wall_speed(scene: &Scene, cells: &Cells) -> f64 {
+    let mut fastest: f64 = 0.0;
+    for face in scene.domain.boundaries.by_axis().into_iter().flatten() {
+        if let Boundary::MovingWall { velocity_m_per_s } = face {
+            fastest = greatest(fastest, norm(velocity_m_per_s));
+        }
+    }
+    if scene.solids.iter().any(|s| s.velocity_m_per_s != [0.0; 3] || s.spin_rad_per_s != [0.0; 3]) {
+        fastest = greatest(fastest, solid_speed(scene, cells));
+    }
+    fastest
+}
+
+/// Fastest surface of a solid: over solid cells with a fluid neighbour.
+fn solid_speed(scene: &Scene, cells: &Cells) -> f64 {
+    let [nx, ny, nz] = cells.extents;
+    let index = |c: [usize; 3]| c[0] + nx * (c[1] + ny * c[2]);
+    let mut fastest: f64 = 0.0;
+    for k in 0..nz {
+        for j in 0..ny {
+            for i in 0..nx {
+                let cell = [i, j, k];
+                let number = cells.solids[index(cell)];
+                if number == 0 || !touches_fluid(cells, cell, index) {
+                    continue;
+                }
+                let solid = &scene.solids[usize::from(number) - 1];
+                let centre = solid.centre_m.unwrap_or_else(|| solid.shape.centre());
+                let r: [f64; 3] =
+                    std::array::from_fn(|a| (cell[a] as f64 + 0.5) * scene.domain.spacing_m - centre[a]);
+                let (v, w) = (solid.velocity_m_per_s, solid.spin_rad_per_s);
+                let u = [
+                    v[0] + w[1] * r[2] - w[2] * r[1],
+                    v[1] + w[2] * r[0] - w[0] * r[2],
+                    v[2] + w[0] * r[1] - w[1] * r[0],
+                ];
+                fastest = greatest(fastest, norm(u));
+            }
+        }
+    }
+    fastest
+}
+
+fn touches_fluid(cells: &Cells, cell: [usize; 3], index: impl Fn([usize; 3]) -> usize) -> bool {
+    (0..3).any(|a| {
+        let n = cells.extents[a];
+        [1, n - 1].into_iter().any(|step| {
+            let mut neighbour = cell;
+            neighbour[a] = (cell[a] + step) % n;
+            cells.solids[index(neighbour)] == 0
+        })
+    })
+}
+
+/// Largest velocity and shear rate of the initial flow.
+fn initial_scales(scene: &Scene) -> (f64, f64) {
+    let size = scene.domain.size_m;
+    let k = |a: usize, count: f64| std::f64::consts::TAU * count.abs() / size[a];
+    match scene.fluid.initial_velocity {
+        InitialVelocity::AtRest => (0.0, 0.0),
+        InitialVelocity::Uniform { velocity_m_per_s } => (norm(velocity_m_per_s), 0.0),
+        InitialVelocity::ShearWave { amplitude_m_per_s, wave_counts, mean_m_per_s } => {
+            let amplitude = norm(amplitude_m_per_s);
+            let wave = norm(std::array::from_fn(|a| k(a, f64::from(wave_counts[a]))));
+            (amplitude + norm(mean_m_per_s), amplitude * wave)
+        }
+        InitialVelocity::TaylorGreen { amplitude_m_per_s, normal, wave_counts, mean_m_per_s } => {
+            let [a, b] = normal.others();
+            let (ka, kb) = (k(a, f64::from(wave_counts[0])), k(b, f64::from(wave_counts[1])));
+            let amplitude = amplitude_m_per_s.abs() * greatest(1.0, ka / kb);
+            (amplitude + norm(mean_m_per_s), 2.0 * amplitude * greatest(ka, kb))
+        }
+        InitialVelocity::TaylorGreen3d { amplitude_m_per_s, wave_counts } => {
+            let amplitude = amplitude_m_per_s.abs();
+            (amplitude, 2.0 * amplitude * k(0, f64::from(wave_counts[0])))
+        }
+        InitialVelocity::Abc { amplitudes_m_per_s, wave_counts } => {
+            let amplitude = amplitudes_m_per_s.iter().map(|a| a.abs()).sum::<f64>();
+            (amplitude, 2.0 * amplitude * k(0, f64::from(wave_counts[0])))
+        }
+    }
+}
+
+/// Euclidean length.
+#[must_use]
+pub fn norm(v: [f64; 3]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}
+
+fn greatest(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
+fn least(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}

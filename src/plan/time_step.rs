@@ -1,0 +1,176 @@
+//! The choice of Δt.
+
+use serde::Serialize;
+
+use super::error::PlanProblem;
+use super::law::{parameters, plastic_viscosity};
+use super::scale::{Scales, closed_axes, extreme_forces, total_force};
+use crate::scene::{BodyForce, Scene};
+use crate::units::Units;
+
+/// Speed in cells per step aimed at when the scene leaves Δt to `plan` (Ma = 0.087).
+const SPEED: f64 = 0.05;
+/// Speed allowed when τ would otherwise fall below [`TAU_LOW`] (Ma = 0.17).
+const SPEED_HIGH: f64 = 0.1;
+/// τ of the plastic viscosity aimed at: larger ones cost accuracy in time, ν Δt/Δx² = 1/6 here.
+const TAU: f64 = 1.0;
+/// τ below which stability and wall accuracy cannot both be had \[K5\].
+const TAU_LOW: f64 = 0.55;
+/// Largest 3 g H Δt²/Δx² \[F7\].
+const COMPRESSION: f64 = 0.02;
+/// Steps per period of an oscillating force, and least number of steps of a run.
+const STEPS_PER_PERIOD: f64 = 200.0;
+
+/// What fixed the time step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StepRule {
+    /// `numerics.time_step_s`.
+    Given,
+    /// `numerics.relaxation_time`.
+    RelaxationTime,
+    /// `numerics.target_mach`.
+    TargetMach,
+    /// Chosen: reference velocity 0.05 cells per step.
+    Speed,
+    /// Chosen: up to 0.1 cells per step, to keep τ at 0.55.
+    SpeedForTau,
+    /// Chosen: plastic τ = 1.
+    Tau,
+    /// Chosen: compression by the force against walls.
+    Compression,
+    /// Chosen: resolution of the oscillation or of the run's duration.
+    Duration,
+}
+
+impl StepRule {
+    /// One line for people.
+    #[must_use]
+    pub fn sentence(self) -> &'static str {
+        match self {
+            Self::Given => "given by `numerics.time_step_s`",
+            Self::RelaxationTime => "from `numerics.relaxation_time` of the plastic viscosity",
+            Self::TargetMach => "from `numerics.target_mach` and the reference velocity",
+            Self::Speed => {
+                "chosen: reference velocity at 0.05 cells per step (least of that, plastic τ = 1, 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
+            }
+            Self::SpeedForTau => {
+                "chosen: reference velocity above 0.05, up to 0.1 cells per step, to bring the plastic τ up to 0.55"
+            }
+            Self::Tau => {
+                "chosen: plastic τ = 1 (least of that, 0.05 cells per step, 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
+            }
+            Self::Compression => {
+                "chosen: compression by the wall-normal force, 3fHΔt²/(ρΔx²) = 0.02 (least of that, 0.05 cells per step, plastic τ = 1, 200 steps)"
+            }
+            Self::Duration => {
+                "chosen: 200 steps per oscillation or run (least of that, 0.05 cells per step, plastic τ = 1, 3fHΔt²/(ρΔx²) = 0.02)"
+            }
+        }
+    }
+
+    /// The JSON path to blame.
+    #[must_use]
+    pub fn path(self) -> &'static str {
+        match self {
+            Self::Given => "numerics.time_step_s",
+            Self::RelaxationTime => "numerics.relaxation_time",
+            Self::TargetMach => "numerics.target_mach",
+            _ => "numerics",
+        }
+    }
+
+    /// Whether the scene left the choice to `plan`.
+    #[must_use]
+    pub fn chosen(self) -> bool {
+        !matches!(self, Self::Given | Self::RelaxationTime | Self::TargetMach)
+    }
+}
+
+/// Viscosity without yield stress at the reference shear rate, Pa s; `None` when the law has no
+/// such scale.
+#[must_use]
+pub fn reference_viscosity(scene: &Scene, scales: &Scales) -> Option<f64> {
+    let law = &scene.fluid.rheology;
+    let p = parameters(law);
+    if p.n == 1.0 {
+        return Some(p.k);
+    }
+    // At rest the yield stress sets the rate: K γ̇ⁿ = σ0.
+    let rate = if scales.shear_rate > 0.0 { scales.shear_rate } else { libm::pow(p.sigma0 / p.k, 1.0 / p.n) };
+    (rate > 0.0).then(|| plastic_viscosity(law, rate))
+}
+
+/// Δt in s and what fixed it.
+///
+/// # Errors
+/// Neither a velocity nor a viscosity is known.
+pub fn choose(scene: &Scene, scales: &Scales) -> Result<(f64, StepRule), PlanProblem> {
+    let dx = scene.domain.spacing_m;
+    let rho = scene.fluid.density_kg_per_m3;
+    let numerics = &scene.numerics;
+    if let Some(dt) = numerics.time_step_s {
+        return Ok((dt, StepRule::Given));
+    }
+    let viscosity = reference_viscosity(scene, scales).ok_or(PlanProblem::NoVelocityScale)?;
+    // [L6]: Δt = (τ − ½) ρ Δx² / (3 μ).
+    let of_tau = |tau: f64| (tau - 0.5) / 3.0 * rho * dx * dx / viscosity;
+    let of_speed = |u: f64| u * dx / scales.velocity;
+    if let Some(tau) = numerics.relaxation_time {
+        return Ok((of_tau(tau), StepRule::RelaxationTime));
+    }
+    if let Some(mach) = numerics.target_mach {
+        if scales.velocity <= 0.0 {
+            return Err(PlanProblem::NoVelocityScale);
+        }
+        return Ok((of_speed(mach / 3.0_f64.sqrt()), StepRule::TargetMach));
+    }
+    let mut best = (of_tau(TAU), StepRule::Tau);
+    let mut lower = |dt: f64, rule| {
+        if dt < best.0 {
+            best = (dt, rule);
+        }
+    };
+    if scales.velocity > 0.0 {
+        let (slow, fast, low) = (of_speed(SPEED), of_speed(SPEED_HIGH), of_tau(TAU_LOW));
+        if low <= slow {
+            lower(slow, StepRule::Speed);
+        } else {
+            lower(if low < fast { low } else { fast }, StepRule::SpeedForTau);
+        }
+    }
+    lower(compression_step(scene), StepRule::Compression);
+    lower(duration(scene) / STEPS_PER_PERIOD, StepRule::Duration);
+    Ok(best)
+}
+
+/// \[F7\]: the largest Δt with 3 f H Δt²/(ρ Δx²) ≤ 0.02 along every walled axis.
+fn compression_step(scene: &Scene) -> f64 {
+    let dx = scene.domain.spacing_m;
+    let mut least = f64::INFINITY;
+    for force in extreme_forces(&total_force(scene)) {
+        for (axis, closed) in closed_axes(scene).into_iter().enumerate() {
+            let weight = 3.0 * force[axis].abs() * scene.domain.size_m[axis];
+            if closed && weight > 0.0 {
+                let dt = dx * (COMPRESSION * scene.fluid.density_kg_per_m3 / weight).sqrt();
+                least = if dt < least { dt } else { least };
+            }
+        }
+    }
+    least
+}
+
+/// The shortest duration that must be resolved, s.
+fn duration(scene: &Scene) -> f64 {
+    let end = scene.stop.end_time_s;
+    match scene.fluid.body_force {
+        Some(BodyForce::Oscillating { frequency_hz, .. }) if frequency_hz * end > 1.0 => 1.0 / frequency_hz,
+        _ => end,
+    }
+}
+
+/// Units of a scene at a time step.
+#[must_use]
+pub fn units(scene: &Scene, dt: f64) -> Units {
+    Units::new(scene.domain.spacing_m, dt, scene.fluid.density_kg_per_m3)
+}

@@ -1,0 +1,195 @@
+//! Running a planned scene into a folder.
+
+mod error;
+mod probes;
+mod schedule;
+mod writer;
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+pub use error::{RunError, StopReport};
+
+use crate::output::progress::Progress;
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::solver::run::{Backend, Fields, Run};
+use crate::solver::steady::residual;
+use schedule::Schedule;
+use writer::{Writer, summary};
+
+/// How to run.
+pub struct Options<'a> {
+    /// Output folder; created when missing.
+    pub out: PathBuf,
+    /// The solver.
+    pub backend: &'a dyn Backend,
+    /// Worker threads, at least 1; results do not depend on it.
+    pub threads: usize,
+    /// End time instead of the scene's, s.
+    pub until_s: Option<f64>,
+    /// Print nothing.
+    pub quiet: bool,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finished {
+    /// Steps taken.
+    pub steps: u64,
+    /// Simulated time, s.
+    pub time_s: f64,
+    /// Residual of the last steadiness check; `None` if there was none.
+    pub residual: Option<f64>,
+    /// Ended because it was steady.
+    pub steady: bool,
+    /// Wall-clock time of the stepping, s.
+    pub wall_seconds: f64,
+    /// Million cell updates per second.
+    pub million_updates_per_second: f64,
+}
+
+/// Cell updates between two movements of the progress bar.
+const UPDATES_PER_MOVE: u64 = 2_000_000;
+
+/// Runs a scene and writes its outputs.
+///
+/// # Errors
+/// The backend refuses the set-up, a guard stops the run (what was written before stays), or a
+/// file cannot be written.
+pub fn run(scene: &Scene, plan: &Plan, options: &Options) -> Result<Finished, RunError> {
+    let mut setup = plan.setup.clone();
+    setup.threads = options.threads.max(1);
+    let steps = options.until_s.map_or(plan.steps, |until| schedule::steps_until(until, &plan.units));
+    let mut writer = Writer::new(scene, plan, &options.out)?;
+    let mut run = options.backend.start(&setup).map_err(RunError::Start)?;
+    let progress = Progress::new(&plan.numbers.title, steps, options.quiet);
+    let mut driver = Driver {
+        scene,
+        plan,
+        options,
+        schedule: Schedule::new(scene, &plan.units, steps),
+        progress: &progress,
+        mass_at_start: run.totals().mass_excess,
+        stepping: 0.0,
+        last_check: None,
+        residual: None,
+    };
+    let result = driver.drive(run.as_mut(), &mut writer);
+    progress.finish();
+    result
+}
+
+struct Driver<'a> {
+    scene: &'a Scene,
+    plan: &'a Plan,
+    options: &'a Options<'a>,
+    schedule: Schedule,
+    progress: &'a Progress,
+    mass_at_start: f64,
+    stepping: f64,
+    last_check: Option<Vec<[f64; 3]>>,
+    residual: Option<f64>,
+}
+
+impl Driver<'_> {
+    fn drive(&mut self, run: &mut dyn Run, writer: &mut Writer) -> Result<Finished, RunError> {
+        let mut fields = run.fields();
+        writer.row(run, &fields)?;
+        writer.fields(run, &fields)?;
+        let mut steady = false;
+        while run.step() < self.schedule.end && !steady {
+            let due = self.schedule.next(run.step());
+            self.advance(run, due, writer)?;
+            fields = run.fields();
+            steady = self.schedule.steady.take_if_due(due) && self.is_steady(&fields);
+            let last = steady || due >= self.schedule.end;
+            if self.schedule.series.take_if_due(due) || last {
+                writer.row(run, &fields)?;
+            }
+            if self.schedule.fields.take_if_due(due) || last {
+                writer.fields(run, &fields)?;
+                self.progress.note(&self.line(run, &fields));
+            }
+        }
+        writer.finish(&fields)?;
+        let finished = self.finished(run, steady);
+        self.summary(run, &fields, writer, &finished, None)?;
+        Ok(finished)
+    }
+
+    /// Steps up to `due` in pieces, so that the bar moves.
+    fn advance(&mut self, run: &mut dyn Run, due: u64, writer: &mut Writer) -> Result<(), RunError> {
+        let piece = (UPDATES_PER_MOVE / run.fluid_cells().max(1)).max(1);
+        while run.step() < due {
+            let clock = Instant::now();
+            let result = run.advance(piece.min(due - run.step()));
+            self.stepping += clock.elapsed().as_secs_f64();
+            self.progress.set(run.step());
+            if let Err(stopped) = result {
+                let report = StopReport::new(self.plan, self.scene, &stopped);
+                let finished = self.finished(run, false);
+                writer.finish_series()?;
+                let fields = run.fields();
+                self.summary(run, &fields, writer, &finished, Some(report.to_string()))?;
+                return Err(RunError::Stopped(Box::new(report)));
+            }
+        }
+        Ok(())
+    }
+
+    fn is_steady(&mut self, fields: &Fields) -> bool {
+        let tolerance = self.scene.stop.steady.map_or(0.0, |steady| steady.tolerance);
+        let now = fields.velocity.clone();
+        let before = self.last_check.replace(now);
+        self.residual = before.map(|before| residual(&before, &fields.velocity));
+        self.residual.is_some_and(|r| r <= tolerance)
+    }
+
+    fn line(&self, run: &dyn Run, fields: &Fields) -> String {
+        let units = &self.plan.units;
+        let speed = units.velocity_to_si(probes::max_speed(fields));
+        let time = units.time_to_si(run.step() as f64);
+        let residual = self.residual.map_or_else(String::new, |r| format!(", residual {r:.2e}"));
+        format!(
+            "step {} of {}, {time:.6} s, largest speed {speed:.4e} m/s{residual}",
+            run.step(),
+            self.schedule.end
+        )
+    }
+
+    fn finished(&self, run: &dyn Run, steady: bool) -> Finished {
+        let updates = run.fluid_cells() as f64 * run.step() as f64;
+        Finished {
+            steps: run.step(),
+            time_s: self.plan.units.time_to_si(run.step() as f64),
+            residual: self.residual,
+            steady,
+            wall_seconds: self.stepping,
+            million_updates_per_second: if self.stepping > 0.0 {
+                1e-6 * updates / self.stepping
+            } else {
+                0.0
+            },
+        }
+    }
+
+    fn summary(
+        &self,
+        run: &dyn Run,
+        fields: &Fields,
+        writer: &Writer,
+        finished: &Finished,
+        stopped: Option<String>,
+    ) -> Result<(), RunError> {
+        let change = (run.totals().mass_excess - self.mass_at_start) / run.fluid_cells().max(1) as f64;
+        let mut summary = summary(self.scene, self.plan, run, fields);
+        summary.backend = self.options.backend.name().to_owned();
+        summary.threads = self.options.threads.max(1);
+        summary.wall_seconds = finished.wall_seconds;
+        summary.million_updates_per_second = finished.million_updates_per_second;
+        summary.mass_residual = change;
+        summary.stopped = stopped;
+        summary.write(&writer.path("summary.json")).map_err(RunError::Output)
+    }
+}

@@ -1,0 +1,156 @@
+//! Value checks. The first problem found is reported; order is that of the file.
+
+mod domain;
+mod fluid;
+mod numerics;
+mod output;
+
+use super::{Scene, SceneError, SceneProblem};
+use crate::geometry::{Axis, Shape};
+
+/// Checks every value that can be judged without numerical parameters.
+pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
+    let at = Checker { file: &scene.file };
+    domain::check(&at, &scene.domain)?;
+    if let Some(gravity) = &scene.gravity {
+        fluid::check_gravity(&at, gravity)?;
+    }
+    fluid::check_fluid(&at, scene)?;
+    fluid::check_layers(&at, scene)?;
+    fluid::check_solids(&at, scene)?;
+    numerics::check_numerics(&at, &scene.numerics)?;
+    numerics::check_stop(&at, &scene.stop)?;
+    output::check(&at, scene)
+}
+
+/// Knows the file name and builds located errors.
+struct Checker<'a> {
+    file: &'a str,
+}
+
+impl Checker<'_> {
+    fn fail(&self, path: impl Into<String>, problem: SceneProblem) -> Result<(), SceneError> {
+        Err(SceneError::new(self.file, path, problem))
+    }
+
+    fn ensure(&self, ok: bool, path: &str, problem: impl FnOnce() -> SceneProblem) -> Result<(), SceneError> {
+        if ok { Ok(()) } else { self.fail(path, problem()) }
+    }
+
+    /// `found` > 0.
+    fn positive(
+        &self,
+        path: &str,
+        found: f64,
+        unit: &'static str,
+        because: &'static str,
+        way_out: &'static str,
+    ) -> Result<(), SceneError> {
+        self.ensure(found > 0.0, path, || SceneProblem::NotPositive { found, unit, because, way_out })
+    }
+
+    /// `found` ≥ 0.
+    fn not_negative(
+        &self,
+        path: &str,
+        found: f64,
+        unit: &'static str,
+        because: &'static str,
+        way_out: &'static str,
+    ) -> Result<(), SceneError> {
+        self.ensure(found >= 0.0, path, || SceneProblem::Negative { found, unit, because, way_out })
+    }
+
+    /// A name that can be a column or part of a file name, and is not among `used`.
+    fn name(&self, path: &str, name: &str, used: &mut Vec<String>) -> Result<(), SceneError> {
+        let good =
+            !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+        self.ensure(good, path, || SceneProblem::BadName { name: name.to_owned() })?;
+        let fresh = !used.iter().any(|other| other == name);
+        self.ensure(fresh, path, || SceneProblem::DuplicateName { name: name.to_owned() })?;
+        used.push(name.to_owned());
+        Ok(())
+    }
+
+    /// A shape with an inside that reaches into the box.
+    fn shape(&self, path: &str, shape: &Shape, size_m: [f64; 3], inverted: bool) -> Result<(), SceneError> {
+        match shape {
+            Shape::Box { min_m, max_m } => {
+                for axis in Axis::ALL {
+                    let (low, high) = (min_m[axis.index()], max_m[axis.index()]);
+                    self.ensure(low < high, &format!("{path}.box"), || SceneProblem::EmptyInterval {
+                        axis: axis.letter(),
+                        low,
+                        high,
+                    })?;
+                }
+            }
+            Shape::Cylinder { direction, radius_m, length_m, .. } => {
+                self.ensure(*direction != [0.0; 3], &format!("{path}.cylinder.direction"), || {
+                    SceneProblem::ZeroVector { way_out: "[1, 0, 0] for a cylinder along x" }
+                })?;
+                self.radius(&format!("{path}.cylinder.radius_m"), *radius_m)?;
+                if let Some(length) = length_m {
+                    let path = format!("{path}.cylinder.length_m");
+                    self.positive(&path, *length, "m", EMPTY, "leave it out for an endless cylinder")?;
+                }
+            }
+            Shape::Sphere { radius_m, .. } => self.radius(&format!("{path}.sphere.radius_m"), *radius_m)?,
+            Shape::Polygon { axis, points_m, from_m, to_m } => {
+                let area = shape.polygon_area().unwrap_or(0.0);
+                let corners = points_m.len();
+                self.ensure(corners >= 3 && area > 0.0, &format!("{path}.polygon.points_m"), || {
+                    SceneProblem::FlatPolygon { corners, area }
+                })?;
+                if let (Some(low), Some(high)) = (*from_m, *to_m) {
+                    self.ensure(low < high, &format!("{path}.polygon"), || SceneProblem::EmptyInterval {
+                        axis: axis.letter(),
+                        low,
+                        high,
+                    })?;
+                }
+            }
+        }
+        if inverted { Ok(()) } else { self.reaches_box(path, shape, size_m) }
+    }
+
+    fn radius(&self, path: &str, radius: f64) -> Result<(), SceneError> {
+        self.positive(path, radius, "m", EMPTY, "a radius of at least one cell")
+    }
+
+    fn reaches_box(&self, path: &str, shape: &Shape, size_m: [f64; 3]) -> Result<(), SceneError> {
+        let bounds = shape.bounds();
+        for axis in Axis::ALL {
+            let a = axis.index();
+            let (low, high, size) = (bounds.min[a], bounds.max[a], size_m[a]);
+            self.ensure(low < size && high > 0.0, path, || SceneProblem::OutsideDomain {
+                axis: axis.letter(),
+                low,
+                high,
+                size,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// A point inside the box.
+    fn point(&self, path: &str, point: [f64; 3], size_m: [f64; 3]) -> Result<(), SceneError> {
+        for axis in Axis::ALL {
+            self.position(path, axis, point[axis.index()], size_m)?;
+        }
+        Ok(())
+    }
+
+    /// A coordinate inside the box.
+    fn position(&self, path: &str, axis: Axis, at: f64, size_m: [f64; 3]) -> Result<(), SceneError> {
+        let size = size_m[axis.index()];
+        self.ensure((0.0..=size).contains(&at), path, || SceneProblem::OutsideDomain {
+            axis: axis.letter(),
+            low: at,
+            high: at,
+            size,
+        })
+    }
+}
+
+const EMPTY: &str = "else nothing is inside the shape";

@@ -1,0 +1,140 @@
+//! Checks of numerical choices and of when to stop.
+
+use super::{Checker, SceneError, SceneProblem};
+use crate::scene::{ClampLimits, Collision, Numerics, Operator, Stop, YieldChoice};
+
+const STEP_KEYS: &[&str] = &["time_step_s", "relaxation_time", "target_mach"];
+
+pub(super) fn check_numerics(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {
+    collision(at, &numerics.collision)?;
+    match &numerics.yield_treatment {
+        YieldChoice::Exact => {}
+        YieldChoice::ImplicitClamped(limits) => {
+            clamp(at, "numerics.yield_treatment.implicit_clamped", limits)?;
+        }
+        YieldChoice::LaggedClamped(limits) => {
+            clamp(at, "numerics.yield_treatment.lagged_clamped", limits)?;
+        }
+    }
+    time_step(at, numerics)
+}
+
+fn time_step(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {
+    let given = [numerics.time_step_s, numerics.relaxation_time, numerics.target_mach];
+    let found: Vec<&str> = STEP_KEYS.iter().zip(given).filter_map(|(key, v)| v.map(|_| *key)).collect();
+    at.ensure(found.len() <= 1, "numerics", || SceneProblem::KeyCount {
+        found: found.clone(),
+        of: STEP_KEYS,
+        rule: "at most one",
+        because: "each of them fixes the time step, τ = ½ + 3μΔt/(ρΔx²) [L6]",
+    })?;
+    if let Some(dt) = numerics.time_step_s {
+        let way_out = "leave it out: `plan` chooses";
+        at.positive("numerics.time_step_s", dt, "s", "time goes forward", way_out)?;
+    }
+    if let Some(tau) = numerics.relaxation_time {
+        at.ensure(tau > 0.5, "numerics.relaxation_time", || SceneProblem::OutOfRange {
+            found: tau,
+            unit: "",
+            low: 0.5,
+            high: 50.0,
+            because: "the lower end excluded: ν = (τ − ½)/3 must be > 0 [L6]",
+            way_out: "0.6 to 1.5",
+        })?;
+    }
+    if let Some(mach) = numerics.target_mach {
+        at.ensure(mach > 0.0 && mach <= 0.5, "numerics.target_mach", || SceneProblem::OutOfRange {
+            found: mach,
+            unit: "",
+            low: 0.0,
+            high: 0.5,
+            because: "the lower end excluded: the equilibrium is of second order in Ma [L3]",
+            way_out: "0.05 to 0.1",
+        })?;
+    }
+    if let Some(velocity) = numerics.reference_velocity_m_per_s {
+        let way_out = "leave it out: `plan` estimates it";
+        at.positive("numerics.reference_velocity_m_per_s", velocity, "m/s", "it is a speed", way_out)?;
+    }
+    Ok(())
+}
+
+fn collision(at: &Checker, collision: &Collision) -> Result<(), SceneError> {
+    let path = "numerics.collision";
+    let one_rate = matches!(collision.operator, Operator::Bgk | Operator::Regularised);
+    let given =
+        [("magic", collision.magic), ("floor", collision.floor), ("lowered_below", collision.lowered_below)];
+    for (key, value) in given {
+        let Some(value) = value else { continue };
+        let path = format!("{path}.{key}");
+        at.ensure(!one_rate, &path, || SceneProblem::UnusedKey {
+            key,
+            because: "only `trt` and `central_moment` have an odd relaxation rate of their own [K2]",
+        })?;
+        if key == "magic" {
+            at.positive(&path, value, "", "Λ = (τ⁺ − ½)(τ⁻ − ½) [K2]", "0.1875: walls exactly half-way")?;
+        } else {
+            at.not_negative(&path, value, "", "it bounds a relaxation time minus ½", "0.05")?;
+        }
+    }
+    Ok(())
+}
+
+fn clamp(at: &Checker, path: &str, limits: &ClampLimits) -> Result<(), SceneError> {
+    let taus = (limits.tau_min, limits.tau_max);
+    let viscosities = (limits.viscosity_min_pa_s, limits.viscosity_max_pa_s);
+    match (taus, viscosities) {
+        ((Some(low), Some(high)), (None, None)) => {
+            at.ensure(low > 0.5, &format!("{path}.tau_min"), || SceneProblem::OutOfRange {
+                found: low,
+                unit: "",
+                low: 0.5,
+                high,
+                because: "the lower end excluded: ν = (τ − ½)/3 must be > 0 [L6]",
+                way_out: "0.501",
+            })?;
+            at.ensure(low < high, path, || SceneProblem::LimitsSwapped { low, high, unit: "" })
+        }
+        ((None, None), (Some(low), Some(high))) => {
+            let key = format!("{path}.viscosity_min_pa_s");
+            at.positive(
+                &key,
+                low,
+                "Pa s",
+                "τ − ½ = 3ν must be > 0 [L6]",
+                "a tenth of the plastic viscosity",
+            )?;
+            at.ensure(low < high, path, || SceneProblem::LimitsSwapped { low, high, unit: "Pa s" })
+        }
+        _ => {
+            let of: &[&str] = &["tau_min", "tau_max", "viscosity_min_pa_s", "viscosity_max_pa_s"];
+            let given =
+                [limits.tau_min, limits.tau_max, limits.viscosity_min_pa_s, limits.viscosity_max_pa_s];
+            let found = of.iter().zip(given).filter_map(|(key, v)| v.map(|_| *key)).collect();
+            let because = "a clamp needs both its limits, in one kind of unit [Y4]";
+            at.fail(path, SceneProblem::KeyCount { found, of, rule: "one min-max pair", because })
+        }
+    }
+}
+
+pub(super) fn check_stop(at: &Checker, stop: &Stop) -> Result<(), SceneError> {
+    at.positive("stop.end_time_s", stop.end_time_s, "s", "else there is nothing to compute", "a time > 0")?;
+    if let Some(steady) = stop.steady {
+        let path = "stop.steady.tolerance";
+        let tolerance = steady.tolerance;
+        at.ensure(tolerance > 0.0 && tolerance < 1.0, path, || SceneProblem::OutOfRange {
+            found: tolerance,
+            unit: "",
+            low: 0.0,
+            high: 1.0,
+            because: "both ends excluded: it is a relative change",
+            way_out: "1e-8",
+        })?;
+        let path = "stop.steady.check_every_s";
+        let every = steady.check_every_s;
+        at.positive(path, every, "s", "it is an interval", "a hundredth of `stop.end_time_s`")?;
+        let end = stop.end_time_s;
+        at.ensure(every <= end, path, || SceneProblem::BeyondEnd { found: every, end })?;
+    }
+    Ok(())
+}

@@ -1,0 +1,71 @@
+//! The box, its cells and its six faces.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The box that is filled with cells.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Domain {
+    /// Edge lengths along x, y, z, m; whole multiples of `spacing_m`. An axis along which nothing
+    /// changes is periodic and one cell long: it then costs one cell.
+    pub size_m: [f64; 3],
+    /// Cell size, m.
+    pub spacing_m: f64,
+    /// What happens at the six faces.
+    #[serde(default)]
+    pub boundaries: Boundaries,
+}
+
+/// One boundary condition per face; a face that is not named is periodic.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Boundaries {
+    /// Face x = 0.
+    #[serde(default)]
+    pub x_min: Boundary,
+    /// Face x = size.
+    #[serde(default)]
+    pub x_max: Boundary,
+    /// Face y = 0.
+    #[serde(default)]
+    pub y_min: Boundary,
+    /// Face y = size.
+    #[serde(default)]
+    pub y_max: Boundary,
+    /// Face z = 0.
+    #[serde(default)]
+    pub z_min: Boundary,
+    /// Face z = size.
+    #[serde(default)]
+    pub z_max: Boundary,
+}
+
+impl Boundaries {
+    /// `[axis][low, high]`.
+    #[must_use]
+    pub fn by_axis(&self) -> [[Boundary; 2]; 3] {
+        [[self.x_min, self.x_max], [self.y_min, self.y_max], [self.z_min, self.z_max]]
+    }
+}
+
+/// Key names of the faces, `[axis][low, high]`.
+pub const FACE_KEYS: [[&str; 2]; 3] = [["x_min", "x_max"], ["y_min", "y_max"], ["z_min", "z_max"]];
+
+/// What happens at one face.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Boundary {
+    /// What leaves here enters at the opposite face, which must be periodic too.
+    #[default]
+    Periodic,
+    /// Wall at rest.
+    NoSlip,
+    /// Wall that slides in its own plane.
+    MovingWall {
+        /// Wall velocity, m/s; the component normal to the face must be 0.
+        velocity_m_per_s: [f64; 3],
+    },
+    /// Mirror plane: no normal flow, no shear stress.
+    FreeSlip,
+}

@@ -1,0 +1,203 @@
+//! What the fluid is, what drives it, and how it starts.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Axis, Shape};
+
+/// The fluid that fills the box (except for `layers` and `solids`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fluid {
+    /// Density, kg/m³.
+    pub density_kg_per_m3: f64,
+    /// Constitutive law.
+    pub rheology: Rheology,
+    /// Force per volume besides gravity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body_force: Option<BodyForce>,
+    /// Velocity at time 0.
+    #[serde(default)]
+    pub initial_velocity: InitialVelocity,
+}
+
+/// Shear stress magnitude σ as a function of the shear rate γ̇.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Rheology {
+    /// σ = μ γ̇.
+    Newtonian {
+        /// Dynamic viscosity μ, Pa s.
+        viscosity_pa_s: f64,
+    },
+    /// σ = σ0 + μ γ̇, rigid below σ0.
+    Bingham {
+        /// Yield stress σ0, Pa.
+        yield_stress_pa: f64,
+        /// Plastic viscosity μ, Pa s.
+        plastic_viscosity_pa_s: f64,
+    },
+    /// σ = σ0 + K γ̇ⁿ, rigid below σ0.
+    HerschelBulkley {
+        /// Yield stress σ0, Pa.
+        yield_stress_pa: f64,
+        /// Consistency K, Pa sⁿ.
+        consistency_pa_s_n: f64,
+        /// Flow index n.
+        flow_index: f64,
+    },
+    /// σ = K γ̇ⁿ.
+    PowerLaw {
+        /// Consistency K, Pa sⁿ.
+        consistency_pa_s_n: f64,
+        /// Flow index n.
+        flow_index: f64,
+    },
+    /// σ = σ0 (1 − exp(−m γ̇)) + K γ̇ⁿ: a smooth stand-in for a yield stress.
+    Papanastasiou {
+        /// Yield stress σ0, Pa.
+        yield_stress_pa: f64,
+        /// Consistency K, Pa sⁿ.
+        consistency_pa_s_n: f64,
+        /// Flow index n.
+        flow_index: f64,
+        /// Growth time m, s.
+        growth_s: f64,
+    },
+}
+
+/// Force per volume, the same in all cells.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum BodyForce {
+    /// The same at all times.
+    Constant {
+        /// Force, N/m³.
+        force_n_per_m3: [f64; 3],
+    },
+    /// mean + amplitude cos(2π frequency t + phase).
+    Oscillating {
+        /// Mean force, N/m³.
+        #[serde(default)]
+        mean_n_per_m3: [f64; 3],
+        /// Amplitude, N/m³.
+        amplitude_n_per_m3: [f64; 3],
+        /// Frequency, 1/s.
+        frequency_hz: f64,
+        /// Phase, radians.
+        #[serde(default)]
+        phase_rad: f64,
+    },
+    /// One force until a time, another from then on.
+    Stepped {
+        /// Force before, N/m³.
+        before_n_per_m3: [f64; 3],
+        /// Force after, N/m³.
+        after_n_per_m3: [f64; 3],
+        /// When it changes, s.
+        at_s: f64,
+    },
+}
+
+/// Gravity; acts as the constant force ρ0 g.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Gravity {
+    /// Magnitude, m/s².
+    pub magnitude_m_per_s2: f64,
+    /// Direction, any length but zero. Give this or `slope_deg`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f64; 3]>,
+    /// Slope of the bed, degrees: downhill is +x. Give this or `direction`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slope_deg: Option<f64>,
+    /// The axis normal to the bed, used with `slope_deg`; z when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bed_normal: Option<Axis>,
+}
+
+/// Velocity at time 0. Waves have whole numbers of periods in the box, so that they are exactly
+/// periodic; pressure starts in balance with them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum InitialVelocity {
+    /// No flow.
+    #[default]
+    AtRest,
+    /// The same everywhere.
+    Uniform {
+        /// Velocity, m/s.
+        velocity_m_per_s: [f64; 3],
+    },
+    /// mean + amplitude sin(k·x), amplitude normal to k.
+    ShearWave {
+        /// Amplitude vector, m/s.
+        amplitude_m_per_s: [f64; 3],
+        /// Whole periods in the box along x, y, z.
+        wave_counts: [i32; 3],
+        /// Uniform flow on top, m/s.
+        #[serde(default)]
+        mean_m_per_s: [f64; 3],
+    },
+    /// Vortices in a plane: u_a = A cos(k_a a) sin(k_b b), u_b = −A (k_a/k_b) sin(k_a a) cos(k_b b).
+    TaylorGreen {
+        /// Amplitude A, m/s.
+        amplitude_m_per_s: f64,
+        /// The axis normal to the plane; a and b are the two others in alphabetical order.
+        normal: Axis,
+        /// Whole periods in the box along a and b.
+        wave_counts: [u32; 2],
+        /// Uniform flow on top, m/s.
+        #[serde(default)]
+        mean_m_per_s: [f64; 3],
+    },
+    /// u = A sin kx cos ky cos kz, v = −A cos kx sin ky cos kz, w = 0; equal wave lengths.
+    #[serde(rename = "taylor_green_3d")]
+    TaylorGreen3d {
+        /// Amplitude A, m/s.
+        amplitude_m_per_s: f64,
+        /// Whole periods in the box along x, y, z.
+        wave_counts: [u32; 3],
+    },
+    /// u = A sin kz + C cos ky, v = B sin kx + A cos kz, w = C sin ky + B cos kx; equal wave lengths.
+    Abc {
+        /// A, B, C, m/s.
+        amplitudes_m_per_s: [f64; 3],
+        /// Whole periods in the box along x, y, z.
+        wave_counts: [u32; 3],
+    },
+}
+
+/// A part of the box that holds another fluid of the same density. Later layers win.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Layer {
+    /// Unique name.
+    pub name: String,
+    /// Where it is.
+    pub shape: Shape,
+    /// Its constitutive law.
+    pub rheology: Rheology,
+}
+
+/// A fixed solid. A cell is solid if its centre is inside.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Solid {
+    /// Unique name.
+    pub name: String,
+    /// Where it is.
+    pub shape: Shape,
+    /// The solid is everything outside the shape: a pipe is the outside of a cylinder.
+    #[serde(default)]
+    pub invert: bool,
+    /// Velocity of its surface, m/s (the cells stay where they are).
+    #[serde(default)]
+    pub velocity_m_per_s: [f64; 3],
+    /// Angular velocity of its surface, rad/s.
+    #[serde(default)]
+    pub spin_rad_per_s: [f64; 3],
+    /// Centre of rotation, m; the centre of the shape when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub centre_m: Option<[f64; 3]>,
+}

@@ -1,0 +1,131 @@
+//! JSON text to [`Scene`], and the parser's complaints to [`SceneError`].
+
+use serde_json::error::Category;
+
+use super::nearest::nearest;
+use super::{Scene, SceneError, SceneProblem};
+
+/// Parses without checking values.
+pub(super) fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
+    if text.trim_start().starts_with('[') {
+        // serde would read the keys of a scene from an array, in order.
+        let problem = SceneProblem::WrongType {
+            found: "an array".to_owned(),
+            expected: "an object with keys".to_owned(),
+        };
+        return Err(SceneError::new(file, "", problem));
+    }
+    let mut reader = serde_json::Deserializer::from_str(text);
+    let located = |path: String, problem| SceneError::new(file, path, problem);
+    let scene: Scene = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+        let path = error.path().to_string();
+        let inner = error.into_inner();
+        match inner.classify() {
+            Category::Data => located(tidy(&path), shape_problem(&message(&inner))),
+            // serde_json calls a number in place of a choice a mistake of syntax.
+            _ if message(&inner) == "expected value" && is_json(text) => {
+                let found = "a value of another type".to_owned();
+                located(tidy(&path), SceneProblem::WrongType { found, expected: in_plain_words("enum ") })
+            }
+            _ => located(tidy(&path), syntax_problem(text, &inner)),
+        }
+    })?;
+    reader.end().map_err(|error| located(String::new(), syntax_problem(text, &error)))?;
+    Ok(scene)
+}
+
+fn is_json(text: &str) -> bool {
+    serde_json::from_str::<serde::de::IgnoredAny>(text).is_ok()
+}
+
+/// The root is an empty path; a trailing `?` marks a place that the parser never reached.
+fn tidy(path: &str) -> String {
+    let path = path.trim_end_matches('?').trim_end_matches('.');
+    path.to_owned()
+}
+
+/// The message without serde_json's position, which the JSON path replaces.
+fn message(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    match text.rfind(" at line ") {
+        Some(end) => text[..end].to_owned(),
+        None => text,
+    }
+}
+
+fn syntax_problem(text: &str, error: &serde_json::Error) -> SceneProblem {
+    let (line, column) = (error.line(), error.column());
+    let detail = message(error);
+    if detail == "number out of range" {
+        return SceneProblem::NumberTooLarge { line, column };
+    }
+    if let Some(token) = not_a_number_at(text, line, column) {
+        return SceneProblem::NotANumber { line, column, token };
+    }
+    SceneProblem::Syntax { line, column, detail }
+}
+
+/// `NaN` or an infinity at, or just before, a position of the text.
+fn not_a_number_at(text: &str, line: usize, column: usize) -> Option<&'static str> {
+    let found = text.lines().nth(line.checked_sub(1)?)?;
+    // The parser stops at most one sign and one letter into the word.
+    let starts = column.saturating_sub(3)..=column;
+    let begins = |token: &&str| {
+        starts.clone().any(|start| found.get(start..).is_some_and(|rest| rest.starts_with(*token)))
+    };
+    ["-Infinity", "Infinity", "NaN", "nan", "inf"].into_iter().find(begins)
+}
+
+/// Reads serde's fixed sentences.
+fn shape_problem(message: &str) -> SceneProblem {
+    let quoted = quoted(message);
+    if message.starts_with("unknown field") {
+        let (key, allowed) = split_first(quoted);
+        let nearest = nearest(&key, &allowed).map(str::to_owned);
+        return SceneProblem::UnknownKey { key, nearest, allowed };
+    }
+    if message.starts_with("unknown variant") {
+        let (found, allowed) = split_first(quoted);
+        let nearest = nearest(&found, &allowed).map(str::to_owned);
+        return SceneProblem::UnknownChoice { found, nearest, allowed };
+    }
+    if message.starts_with("missing field") {
+        return SceneProblem::MissingKey { key: split_first(quoted).0 };
+    }
+    if message.starts_with("duplicate field") {
+        return SceneProblem::DuplicateKey { key: split_first(quoted).0 };
+    }
+    let (found, expected) = message.split_once(", expected ").unwrap_or((message, "see `lahar schema`"));
+    let found = found
+        .strip_prefix("invalid type: ")
+        .or_else(|| found.strip_prefix("invalid value: "))
+        .or_else(|| found.strip_prefix("invalid "))
+        .unwrap_or(found);
+    SceneProblem::WrongType { found: found.to_owned(), expected: in_plain_words(expected) }
+}
+
+/// serde names Rust types; a scene's author knows JSON.
+fn in_plain_words(expected: &str) -> String {
+    match expected {
+        "f64" => "a number".to_owned(),
+        "u32" | "i32" | "u64" => "a whole number".to_owned(),
+        other if other.starts_with("struct variant") || other.starts_with("struct ") => {
+            "an object with keys".to_owned()
+        }
+        other if other.starts_with("enum ") => "a choice, as text or as an object with one key".to_owned(),
+        other => other.to_owned(),
+    }
+}
+
+/// The words between back-ticks.
+fn quoted(message: &str) -> Vec<String> {
+    message.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+fn split_first(mut words: Vec<String>) -> (String, Vec<String>) {
+    if words.is_empty() {
+        return (String::new(), words);
+    }
+    let first = words.remove(0);
+    (first, words)
+}

@@ -1,0 +1,105 @@
+//! One linearised step: exact Jacobian of a collision kernel times the phase of streaming.
+
+use faer::{Mat, c64};
+
+use super::StabilityError;
+use crate::collision::Collision;
+use crate::lane::Dual;
+use crate::lattice::equilibrium::equilibrium;
+use crate::lattice::moments::moments;
+use crate::lattice::{C, Q};
+
+/// A collision operator linearised about uniform flow.
+#[derive(Clone, Debug)]
+pub struct Linearised {
+    /// `jacobian[i][j]` = ∂f*_i/∂f_j.
+    jacobian: [[f64; Q]; Q],
+    /// The velocity it was taken at.
+    velocity: [f64; 3],
+}
+
+impl Linearised {
+    /// J = ∂f*/∂f at density 1 and velocity `u`, without force, at constant ω⁺ = 1/τ.
+    ///
+    /// The derivatives are those of the kernel that runs, moments included, taken by [`Dual`]
+    /// numbers: no difference quotient, no second copy of the operator. The operators of lahar are
+    /// affine in the moments that are not conserved, so any base state with these ρ and u gives the
+    /// same matrix; the second-order equilibrium is taken.
+    ///
+    /// # Arguments
+    /// `collision`: the operator. `tau`: τ⁺ > ½. `u`: lattice units.
+    /// # Exactness
+    /// + − × ÷ √ of the kernel and its derivative, one order; bit-stable.
+    /// # Source
+    /// Design \[K5\].
+    /// # Verified by
+    /// Claims `neumann-noise-evolution`, `neumann-table`; test `conserves_mass_and_momentum_linearly`.
+    #[must_use]
+    pub fn about<O: Collision>(collision: &O, tau: f64, u: [f64; 3]) -> Self {
+        let base = equilibrium(0.0, 1.0, &u);
+        let omega = Dual::constant(1.0 / tau);
+        let still = [Dual::constant(0.0); 3];
+        let mut jacobian = [[0.0; Q]; Q];
+        for j in 0..Q {
+            let mut h = base.map(Dual::constant);
+            h[j] = Dual::variable(base[j]);
+            let m = moments(&h, &still);
+            let post = collision.collide(&h, &m, omega);
+            for i in 0..Q {
+                jacobian[i][j] = post[i].slope;
+            }
+        }
+        Self { jacobian, velocity: u }
+    }
+
+    /// The Jacobian ∂f*_i/∂f_j.
+    #[must_use]
+    pub const fn jacobian(&self) -> &[[f64; Q]; Q] {
+        &self.jacobian
+    }
+
+    /// The velocity of the uniform flow.
+    #[must_use]
+    pub const fn velocity(&self) -> [f64; 3] {
+        self.velocity
+    }
+
+    /// M(k) = diag(exp(−i k·c)) J: what one step does to a wave exp(i k·x).
+    ///
+    /// # Arguments
+    /// `k`: wave vector, radians per cell.
+    /// # Source
+    /// Design \[K5\]; J. D. Sterling and S. Chen, J. Comput. Phys. 123 (1996) 196.
+    /// # Verified by
+    /// Claim `neumann-noise-evolution`.
+    #[must_use]
+    pub fn amplification(&self, k: [f64; 3]) -> Mat<c64> {
+        let phase = phases(k);
+        Mat::from_fn(Q, Q, |i, j| phase[i] * self.jacobian[i][j])
+    }
+
+    /// Largest modulus of an eigenvalue of M(k).
+    ///
+    /// # Errors
+    /// The eigenvalues did not converge, or the matrix is not finite.
+    pub fn spectral_radius(&self, k: [f64; 3]) -> Result<f64, StabilityError> {
+        let eigenvalues = self
+            .amplification(k)
+            .eigenvalues()
+            .map_err(|_| StabilityError::Eigenvalues { velocity: self.velocity, wave: k })?;
+        Ok(eigenvalues.iter().map(|l| (l.re * l.re + l.im * l.im).sqrt()).fold(0.0, f64::max))
+    }
+}
+
+/// exp(−i k·c_i).
+#[must_use]
+pub fn phases(k: [f64; 3]) -> [c64; Q] {
+    let axis: [[c64; 3]; 3] = std::array::from_fn(|a| {
+        let (s, c) = (libm::sin(k[a]), libm::cos(k[a]));
+        [c64::new(c, s), c64::new(1.0, 0.0), c64::new(c, -s)]
+    });
+    std::array::from_fn(|i| {
+        let factor = |a: usize| axis[a][(C[i][a] + 1) as usize];
+        factor(0) * factor(1) * factor(2)
+    })
+}

@@ -1,0 +1,65 @@
+use super::table::{Column, OPERATORS, Row, TAUS};
+use super::*;
+use crate::lattice::{C, Q};
+
+#[test]
+fn conserves_mass_and_momentum_linearly() {
+    for (name, operator) in OPERATORS {
+        let linearised = Linearised::about(&operator, 0.6, [0.05, -0.03, 0.08]);
+        for j in 0..Q {
+            let column = |weight: fn(usize) -> f64| {
+                (0..Q).map(|i| weight(i) * linearised.jacobian()[i][j]).sum::<f64>()
+            };
+            let sums = [
+                column(|_| 1.0),
+                column(|i| f64::from(C[i][0])),
+                column(|i| f64::from(C[i][1])),
+                column(|i| f64::from(C[i][2])),
+            ];
+            let expected = [1.0, f64::from(C[j][0]), f64::from(C[j][1]), f64::from(C[j][2])];
+            for (sum, expected) in sums.into_iter().zip(expected) {
+                // About 200 operations on numbers of order one.
+                assert!((sum - expected).abs() < 200.0 * f64::EPSILON, "{name}: {sum} {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn symmetric_waves_grow_alike() -> Result<(), StabilityError> {
+    // The search looks at one wave of each set of mirror images only.
+    for (name, operator) in OPERATORS {
+        let linearised = Linearised::about(&operator, 0.52, Direction::Xy.velocity(0.1));
+        let radius = |k| linearised.spectral_radius(k);
+        let first = radius([0.7, -1.9, 2.3])?;
+        for image in [[-1.9, 0.7, 2.3], [0.7, -1.9, -2.3], [-0.7, 1.9, -2.3], [1.9, -0.7, 2.3]] {
+            // A simple eigenvalue of a matrix of order one, condition below 1e3.
+            assert!((radius(image)? - first).abs() < 1e-12, "{name}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn wrong_tau_is_refused() {
+    for tau in [0.5, 0.2, f64::NAN] {
+        assert!(matches!(max_stable_speed(&CollisionChoice::Bgk, tau), Err(StabilityError::Tau { .. })));
+    }
+}
+
+#[test]
+#[ignore = "writes src/stability/table.json; takes a quarter of an hour"]
+fn writes_the_stability_table() -> Result<(), Box<dyn std::error::Error>> {
+    let mut columns = Vec::new();
+    for (name, collision) in OPERATORS {
+        let mut rows = Vec::new();
+        for tau in TAUS {
+            rows.push(Row::compute(&collision, tau, &Search::THOROUGH)?);
+            eprintln!("{name} {tau}: {:?}", rows.last().map(|row: &Row| row.limits.map(|l| l.speed)));
+        }
+        columns.push(Column { collision, rows });
+    }
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/stability/table.json");
+    std::fs::write(path, serde_json::to_string_pretty(&columns)? + "\n")?;
+    Ok(())
+}

@@ -1,0 +1,138 @@
+//! Backends with one equation wrong: most are misprints of the papers.
+
+use crate::boundary::bounce_back::bounce_back;
+use crate::collision::{Collision, CollisionChoice};
+use crate::lane::Lane;
+use crate::lattice::Q;
+use crate::lattice::W;
+use crate::lattice::equilibrium::dot;
+use crate::lattice::moments::{Moments, deviator, magnitude, momentum, non_equilibrium, second};
+use crate::rheology::Law;
+use crate::solver::physics::{Physics, Standard};
+use crate::solver::plain::PlainRun;
+use crate::solver::run::{Backend, Run, StartError};
+use crate::solver::setup::Setup;
+
+/// The one thing that is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mistake {
+    /// 000 Eq 10: moving walls with 2 w_i instead of 6 w_i.
+    WallFactor,
+    /// 000 Eq 13: shear rate from f instead of f − f_eq.
+    EquilibriumKept,
+    /// 004 Eq 3.3 applied to 3.27: half the shear rate.
+    ShearRateHalved,
+    /// All three papers: no force in the non-equilibrium tensor.
+    NoForceInStress,
+    /// 000 Eqs 4–5, 001 Eqs 3–4: velocity without half the force.
+    NoForceInVelocity,
+    /// 004 Eq 3.38: r × ω instead of ω × r.
+    SpinReversed,
+    /// \[B3\] with the apparent viscosity.
+    ApparentViscosityAtWall,
+}
+
+/// The plain solver with one mistake.
+#[derive(Clone, Copy, Debug)]
+pub struct Mistaken(pub Mistake);
+
+impl Backend for Mistaken {
+    fn name(&self) -> &'static str {
+        "plain, with a mistake"
+    }
+
+    fn start(&self, setup: &Setup) -> Result<Box<dyn Run>, StartError> {
+        let mut setup = setup.clone();
+        if self.0 == Mistake::SpinReversed {
+            for motion in &mut setup.solid_motion {
+                motion.spin = motion.spin.map(|w| -w);
+            }
+        }
+        let right =
+            Standard { laws: setup.fluids.clone(), treatment: setup.yielding, collision: setup.collision };
+        Ok(Box::new(PlainRun::start(&setup, Wrong { right, mistake: self.0 })?))
+    }
+}
+
+/// Right physics, laws and collision chosen at run time, with one method overridden.
+#[derive(Clone, Debug)]
+struct Wrong {
+    right: Standard<Law, CollisionChoice>,
+    mistake: Mistake,
+}
+
+impl Physics for Wrong {
+    fn moments<L: Lane>(&self, h: &[L; Q], force: &[L; 3]) -> Moments<L> {
+        let mut m = self.right.moments(h, force);
+        match self.mistake {
+            Mistake::NoForceInStress => {
+                m.q = non_equilibrium(&second(h), m.d_rho, m.rho, &m.u, &[L::zero(); 3]);
+            }
+            Mistake::NoForceInVelocity => {
+                m.u = momentum(h).map(|j| j / m.rho);
+                m.q = non_equilibrium(&second(h), m.d_rho, m.rho, &m.u, force);
+            }
+            _ => {}
+        }
+        m
+    }
+
+    fn stress_magnitude<L: Lane>(&self, m: &Moments<L>) -> L {
+        match self.mistake {
+            Mistake::EquilibriumKept => {
+                let third = L::splat(1.0 / 3.0) * m.rho;
+                let [x, y, z] = m.u;
+                let flow = [x * x, y * y, z * z, x * y, x * z, y * z];
+                let kept: [L; 6] = std::array::from_fn(|k| {
+                    let pressure = if k < 3 { third } else { L::zero() };
+                    m.q[k] + (m.rho * flow[k] + pressure)
+                });
+                magnitude(&kept)
+            }
+            // γ̇/2 satisfies the local relation with half the stress.
+            Mistake::ShearRateHalved => L::splat(0.5) * magnitude(&deviator(&m.q)),
+            _ => self.right.stress_magnitude(m),
+        }
+    }
+
+    fn constant_omega(&self) -> Option<f64> {
+        self.right.constant_omega()
+    }
+
+    fn omega<L: Lane>(&self, fluid: u8, rho: L, q: L, previous: L) -> L {
+        self.right.omega(fluid, rho, q, previous)
+    }
+
+    fn odd_omega<L: Lane>(&self, omega: L) -> L {
+        self.right.odd_omega(omega)
+    }
+
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        self.right.odd_departure(h, m)
+    }
+
+    fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
+        self.right.wanted_odd_excess(omega)
+    }
+
+    fn collide<L: Lane>(&self, h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q] {
+        self.right.collision.collide(h, m, omega)
+    }
+
+    fn wall<L: Lane>(&self, out: L, i: usize, rho: L, u_wall: &[L; 3]) -> L {
+        if self.mistake == Mistake::WallFactor {
+            out - L::splat(2.0 * W[i]) * (rho * dot(i, u_wall))
+        } else {
+            bounce_back(out, i, rho, u_wall)
+        }
+    }
+
+    fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L {
+        if self.mistake == Mistake::ApparentViscosityAtWall {
+            // 1/(ρν) = 3ω/(ρ(1 − ω/2)).
+            L::splat(3.0) * omega / (rho * (L::one() - L::splat(0.5) * omega))
+        } else {
+            self.right.tangent_fluidity(fluid, rho, omega, q)
+        }
+    }
+}

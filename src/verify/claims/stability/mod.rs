@@ -1,0 +1,50 @@
+//! Claims of the study `stability`: von Neumann analysis and runs driven unstable on purpose.
+
+mod exhibits;
+mod galilean;
+mod layers;
+mod limits;
+mod mutants;
+mod noise;
+
+use crate::verify::golden::Agreement;
+use crate::verify::study::Study;
+
+/// The study.
+pub static STUDY: Study = Study {
+    id: "stability",
+    title: "Linear stability",
+    intro: "Below a certain viscosity, or above a certain speed, a scheme amplifies its own rounding errors. Linear analysis says where; runs show that it is right. *Stable* means that in an unbounded uniform flow of constant tau no wave grows by more than 1e-8 per step: necessary, not sufficient, because walls, gradients of tau and free surfaces are left out. The chapter also holds the cases that stress a scheme in other ways: two layers of very different viscosity, and waves and vortices carried by a fast stream.\n\nThe numbers of this chapter are eigenvalues, which agree between processors to rounding only, so they are compared to a relative 1e-9 and not bit for bit.",
+    claims: &[
+        limits::RATES,
+        noise::EVOLUTION,
+        noise::TRT_GROWS,
+        noise::BGK_DECAYS,
+        noise::GUARD,
+        limits::TABLE,
+        limits::TABLE_HIGH,
+        limits::TABLE_COARSE,
+        limits::CERTIFICATE,
+        limits::QUARTER,
+        limits::ODD_RATE,
+        galilean::PARALLEL,
+        galilean::NORMAL,
+        galilean::CENTRAL,
+        galilean::VORTEX_BGK,
+        galilean::VORTEX_TRT,
+        layers::STRESS_BGK,
+        layers::INTERFACE_BGK,
+        layers::STRESS_TRT,
+        layers::INTERFACE_TRT,
+        layers::STRESS_CENTRAL,
+        layers::INTERFACE_CENTRAL,
+        layers::LONG,
+    ],
+    exhibits: &[exhibits::MAP, exhibits::ODD_RATE, exhibits::HISTORY, exhibits::GALILEAN],
+    mutants: &[mutants::SWAPPED_RATES],
+    limits: &[
+        "The limits are those of uniform flow: neither walls nor gradients of tau or velocity are in the analysis.",
+        "Below tau = 0.51 the growing waves of operators with one small odd rate fill thin shells of wave vectors; the search then gives upper bounds that scatter by about 10 %.",
+    ],
+    agreement: Agreement::Relative(1e-9),
+};

@@ -1,0 +1,157 @@
+//! The command line: every scene can be planned, runs write what they should, exit codes.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use lahar::output::csv::Series;
+use lahar::output::summary::Summary;
+use lahar::plan::Plan;
+use lahar::scene;
+
+fn lahar(arguments: &[&str]) -> Output {
+    let command = Command::new(env!("CARGO_BIN_EXE_lahar")).args(arguments).current_dir(root()).output();
+    command.expect("the command starts")
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// An empty folder of this test's own.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    folder
+}
+
+fn scenes() -> Vec<PathBuf> {
+    let mut scenes = Vec::new();
+    for kind in ["verify", "show"] {
+        for entry in std::fs::read_dir(root().join("scenes").join(kind)).expect("a folder of scenes") {
+            scenes.push(entry.expect("a readable entry").path());
+        }
+    }
+    scenes.sort();
+    scenes
+}
+
+#[test]
+fn every_scene_of_the_package_has_a_plan() {
+    for path in scenes() {
+        let scene = scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let plan = Plan::new(&scene).unwrap_or_else(|error| panic!("{error}"));
+        assert!(plan.steps > 0 && plan.numbers.mach <= 0.2, "{}", path.display());
+    }
+}
+
+#[test]
+fn schema_of_the_package_is_the_one_printed() {
+    let written = std::fs::read_to_string(root().join("scenes/scene.schema.json")).expect("a schema");
+    let printed = lahar(&["schema"]);
+    assert_eq!(printed.status.code(), Some(0));
+    assert_eq!(
+        String::from_utf8_lossy(&printed.stdout),
+        written,
+        "run `lahar schema > scenes/scene.schema.json`"
+    );
+}
+
+#[test]
+fn plan_as_table_and_as_json() {
+    let scene = "scenes/verify/channel_bingham.json";
+    let table = lahar(&["plan", scene]);
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(root().join("golden/snapshots"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings
+        .bind(|| insta::assert_snapshot!("plan__channel_bingham", String::from_utf8_lossy(&table.stdout)));
+    let json: serde_json::Value =
+        serde_json::from_slice(&lahar(&["plan", scene, "--json"]).stdout).expect("JSON");
+    // Wall stress 2 Pa: plug velocity (2 − 1)²/(2 · 0.5 · 40) = 0.025 m/s; two products, one quotient.
+    let velocity = json["reference_velocity_m_per_s"].as_f64().expect("a number");
+    assert!((velocity - 0.025).abs() <= 4.0 * f64::EPSILON * 0.025, "{velocity}");
+    assert_eq!(json["tau_max"], serde_json::Value::Null);
+}
+
+#[test]
+fn run_writes_all_its_files_and_the_same_bits_with_two_threads() {
+    let mut fingerprints = Vec::new();
+    for threads in ["1", "2"] {
+        let out = folder(&format!("run_{threads}"));
+        let name = out.to_string_lossy();
+        let scene = "scenes/show/mud_past_block.json";
+        let output = lahar(&["run", scene, "--out", &name, "--until", "0.02", "--threads", threads]);
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        for file in ["fields_000000.vti", "run.pvd", "series.csv", "summary.json", "plots/speed.svg"] {
+            assert!(out.join(file).is_file(), "{file}");
+        }
+        let series = Series::read(&out.join("series.csv")).expect("a series");
+        assert_eq!(series.columns[0].name, "time");
+        assert!(series.rows.len() > 10, "{} rows", series.rows.len());
+        let summary = Summary::read(&out.join("summary.json")).expect("a summary");
+        assert_eq!(summary.stopped, None);
+        // A sum over 4700 cells of values below 1 in f64.
+        assert!(summary.mass_residual.abs() < 4700.0 * f64::EPSILON, "{}", summary.mass_residual);
+        fingerprints.push(summary.fingerprint);
+    }
+    assert_eq!(fingerprints[0], fingerprints[1]);
+}
+
+#[test]
+fn guard_stops_with_3_says_where_and_keeps_earlier_files() {
+    let out = folder("runaway");
+    std::fs::create_dir_all(&out).expect("a folder");
+    // Ten times faster than it says, accelerated without walls: it must pass the limit of 0.4.
+    let scene = r#"{
+        "domain": { "size_m": [0.01, 0.08, 0.01], "spacing_m": 0.01 },
+        "fluid": {
+            "density_kg_per_m3": 1000.0,
+            "rheology": { "newtonian": { "viscosity_pa_s": 5.0 } },
+            "body_force": { "constant": { "force_n_per_m3": [1000.0, 0.0, 0.0] } }
+        },
+        "numerics": { "time_step_s": 0.002, "reference_velocity_m_per_s": 0.5 },
+        "stop": { "end_time_s": 5.0 },
+        "output": { "fields": { "every_s": 0.5 } }
+    }"#;
+    let path = out.join("runaway.json");
+    std::fs::write(&path, scene).expect("a written scene");
+    let output = lahar(&["run", &path.to_string_lossy(), "--out", &out.to_string_lossy()]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{message}");
+    for part in ["stopped at step", "cell (", " m\n", "likely cause", "relaxation time"] {
+        assert!(message.contains(part), "`{part}` in {message}");
+    }
+    // u = g t reaches 0.4 cells per step, 2 m/s, at 2 s: fields of 0, 0.5, 1 and 1.5 s are there.
+    for number in 0..4 {
+        assert!(out.join(format!("fields_{number:06}.vti")).is_file(), "{number}");
+    }
+    assert!(!out.join("fields_000005.vti").exists());
+    let summary = Summary::read(&out.join("summary.json")).expect("a summary");
+    assert!(summary.stopped.is_some());
+}
+
+#[test]
+fn steady_run_ends_early_at_the_exact_velocity() {
+    let out = folder("steady");
+    let scene = "scenes/verify/channel_bingham.json";
+    let output = lahar(&["run", scene, "--out", &out.to_string_lossy(), "--quiet"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(output.stderr, b"");
+    let summary = Summary::read(&out.join("summary.json")).expect("a summary");
+    assert!(summary.time_s < 59.0, "{} s of 60", summary.time_s);
+    // Plug velocity 0.025 m/s; second order in 64 cells: the plug's edge lies within a cell, which
+    // moves its velocity by at most (1/32)² of it.
+    let speed = summary.speed_m_per_s.greatest;
+    assert!((speed - 0.025).abs() < 0.025 / 1024.0, "{speed}");
+}
+
+#[test]
+fn unwritable_folder_is_exit_code_4_and_bad_usage_2() {
+    let out = folder("in_the_way");
+    std::fs::write(&out, "a file").expect("a written file");
+    let scene = "scenes/verify/shear_wave.json";
+    assert_eq!(lahar(&["run", scene, "--out", &out.to_string_lossy()]).status.code(), Some(4));
+    assert_eq!(lahar(&["run", scene, "--until", "-1"]).status.code(), Some(2));
+    assert_eq!(lahar(&["fly"]).status.code(), Some(2));
+}

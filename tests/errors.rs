@@ -1,0 +1,102 @@
+//! Every malformed or unphysical scene of `tests/bad_scenes` is refused with a message that says
+//! where, what, what is allowed and a way out: by the library, and by the command with exit code 2.
+
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use lahar::plan::{Plan, PlanProblem};
+use lahar::scene::{self, SceneProblem};
+
+fn bad_scenes() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_scenes");
+    let entries = std::fs::read_dir(folder).expect("the folder of bad scenes is part of the package");
+    let mut scenes: Vec<PathBuf> = entries.map(|entry| entry.expect("a readable entry").path()).collect();
+    scenes.sort();
+    scenes
+}
+
+fn snapshots() -> insta::Settings {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/snapshots"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings
+}
+
+/// The message, by way of the library; `None` if the scene is accepted. Memory is not looked at,
+/// so that messages do not depend on the machine.
+fn refusal(path: &Path) -> Option<String> {
+    let scene = match scene::load(path) {
+        Ok(scene) => scene,
+        Err(error) => return Some(error.to_string()),
+    };
+    Plan::with_memory(&scene, None).err().map(|error| error.to_string())
+}
+
+#[test]
+fn refuses_at_least_45_scenes_each_with_its_message() {
+    let scenes = bad_scenes();
+    assert!(scenes.len() >= 45, "{} bad scenes", scenes.len());
+    snapshots().bind(|| {
+        for path in scenes {
+            let stem = path.file_stem().expect("a file name").to_string_lossy().into_owned();
+            let Some(message) = refusal(&path) else { panic!("{stem} was accepted") };
+            insta::assert_snapshot!(format!("bad_scene__{stem}"), message);
+        }
+    });
+}
+
+#[test]
+fn messages_name_file_allowed_and_way_out_but_no_folder() {
+    for path in bad_scenes() {
+        let name = path.file_name().expect("a file name").to_string_lossy().into_owned();
+        let message = refusal(&path).unwrap_or_default();
+        assert!(message.starts_with(&format!("{name}: ")), "{message}");
+        assert!(message.contains("\n  way out: "), "{name}: {message}");
+        let syntax = message.contains("not JSON");
+        assert!(syntax || message.contains("\n  allowed"), "{name}: {message}");
+        assert!(!message.contains(env!("CARGO_MANIFEST_DIR")), "{message}");
+    }
+}
+
+#[test]
+fn command_exits_with_2_and_the_same_message() {
+    for path in bad_scenes() {
+        let output =
+            Command::new(env!("CARGO_BIN_EXE_lahar")).arg("plan").arg(&path).output().expect("it starts");
+        let name = path.display();
+        assert_eq!(output.status.code(), Some(2), "{name}");
+        assert_eq!(output.stdout, b"", "{name}");
+        let message = refusal(&path).unwrap_or_default();
+        assert_eq!(String::from_utf8_lossy(&output.stderr), format!("error: {message}\n"));
+    }
+}
+
+#[test]
+fn refuses_what_does_not_fit_into_memory() {
+    let text = include_str!("../scenes/verify/taylor_green_3d.json");
+    let scene = scene::from_json(text, "taylor_green_3d.json").expect("a good scene");
+    // 32³ cells of at most 414 bytes are 13.6 MB.
+    assert!(Plan::with_memory(&scene, Some(14_000_000)).is_ok());
+    let error = Plan::with_memory(&scene, Some(13_000_000)).expect_err("too little memory");
+    assert!(matches!(*error.problem, PlanProblem::OutOfMemory { cells: 32_768, .. }), "{error}");
+    assert_eq!(error.path, "domain");
+    snapshot("out_of_memory", &error);
+}
+
+#[test]
+fn missing_file_is_an_io_error() {
+    let error = scene::load(Path::new("no/such/scene.json")).expect_err("there is no such file");
+    assert_eq!(*error.problem, SceneProblem::Unreadable { kind: std::io::ErrorKind::NotFound });
+    snapshot("missing_file", &error);
+    let output = Command::new(env!("CARGO_BIN_EXE_lahar"))
+        .args(["plan", "no/such/scene.json"])
+        .output()
+        .expect("it starts");
+    assert_eq!(output.status.code(), Some(4));
+}
+
+fn snapshot(name: &str, error: &dyn Display) {
+    snapshots().bind(|| insta::assert_snapshot!(name, error.to_string()));
+}
