@@ -9,7 +9,7 @@ use crate::verify::record::Record;
 const CURVES: usize = 6;
 
 /// Error against the ladder's parameter for all claims about an order: one figure per parameter
-/// and [`CURVES`] claims. Returns file names and plots.
+/// and six claims. Returns file names and plots.
 #[must_use]
 pub fn convergence(study: &str, records: &[&Record]) -> Vec<(String, Plot)> {
     let ordered: Vec<&Record> = records.iter().filter(|r| r.order.is_some()).copied().collect();

@@ -15,9 +15,9 @@ use crate::verify::exact::shear_wave::{sound_decay_rate, sound_speed};
 
 /// Speed and decay rate of a standing wave of length `n` along z.
 ///
-/// After the kinetic modes have died the cosine part of the density is c λᵗ + its conjugate, so four
-/// values a quarter period apart or less obey a(t+2s) = p a(t+s) − r a(t) with r = |λ|²ˢ and
-/// p = 2 |λ|ˢ cos(ωs). Steps `s` about an eighth of a period keep the two equations apart.
+/// After the kinetic modes have died the cosine part of the density is c λᵗ + its conjugate, so values
+/// s steps apart obey a(t+2s) = p a(t+s) − r a(t) with r = |λ|²ˢ and p = 2 |λ|ˢ cos(ωs). Six values an
+/// eighth of a period apart give four equations for p and r, far from parallel.
 fn speed_and_decay(
     backend: &dyn Backend,
     collision: CollisionChoice,
@@ -39,7 +39,6 @@ fn speed_and_decay(
     };
     let period = core::f64::consts::TAU / (k * sound_speed());
     let stride = (period / 8.0).round().max(1.0) as u64;
-    // A whole number of periods between the two pairs of equations keeps rounding small.
     run.advance(skip(relaxation, relaxation.viscosity() * k * k))?;
     let mut a = [0.0; 6];
     for (index, value) in a.iter_mut().enumerate() {
