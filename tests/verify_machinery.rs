@@ -10,7 +10,7 @@ use lahar::verify::evaluate::evaluate;
 use lahar::verify::exhibit::{Exhibit, ExhibitData, Table};
 use lahar::verify::golden::{Agreement, GoldenError, compare, merge, rejudge};
 use lahar::verify::ladder::{Depth, faults};
-use lahar::verify::mutant::{self, Mutant, Subject};
+use lahar::verify::mutant::{self, Detection, Mutant, Subject};
 use lahar::verify::record::{Record, Verdict};
 use lahar::verify::study::{Options, Results, Study};
 
@@ -44,6 +44,10 @@ fn first_order(_: &dyn Backend, n: f64) -> Result<Sample, VerifyError> {
 
 fn never(_: &dyn Backend, _: f64) -> Result<Sample, VerifyError> {
     Ok(Sample::relative(1.0, f64::NAN, 1.0))
+}
+
+fn unsettled(_: &dyn Backend, _: f64) -> Result<Sample, VerifyError> {
+    Err(VerifyError::NotSteady { steps: 10, residual: 1.0, wanted: 0.1 })
 }
 
 fn unstartable(backend: &dyn Backend, n: f64) -> Result<Sample, VerifyError> {
@@ -161,6 +165,14 @@ fn mutants_are_caught_and_healthy_code_is_not() {
     assert!(mutant::evaluate(&whole, &QUADRATURE, &Nothing).how.contains("order"));
     let healthy = Mutant { subject: Subject::Measure(second_order), ..MUTANTS[0] };
     assert!(!mutant::evaluate(&healthy, &QUADRATURE, &Nothing).caught);
+    // Nothing is detected by a claim that fails without the mistake, too.
+    let hopeless = Claim { measure: first_order, ..QUADRATURE };
+    let blind = mutant::evaluate(&MUTANTS[0], &hopeless, &Nothing);
+    assert!(!blind.caught && blind.how.contains("the honest claim fails as well"), "{blind:?}");
+    // A run that does not settle is told apart from a wrong number.
+    let restless = Mutant { subject: Subject::Measure(unsettled), ..MUTANTS[0] };
+    assert_eq!(mutant::evaluate(&restless, &QUADRATURE, &Nothing).detection, Detection::NoResult);
+    assert_eq!(caught.detection, Detection::Error);
     // A backend that refuses to start is not a detection, nor is a rung without tolerance.
     let refusing = Claim { measure: unstartable, ..QUADRATURE };
     let dead = Mutant { subject: Subject::Backend(|| Box::new(Nothing)), ..MUTANTS[0] };

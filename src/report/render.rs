@@ -7,7 +7,7 @@ use super::{Chapter, figures, trace};
 use crate::verify::claim::{Kind, Metric};
 use crate::verify::exhibit::{Entry, ExhibitRecord};
 use crate::verify::ladder::symbol;
-use crate::verify::mutant::MutantRecord;
+use crate::verify::mutant::{Detection, MutantRecord};
 use crate::verify::record::{Record, Verdict};
 
 const OPENING: &str = "\
@@ -245,16 +245,23 @@ fn mutants(out: &mut String, chapters: &[Chapter]) {
         return;
     }
     let caught = all.iter().filter(|m| m.caught).count();
+    let unmeasured = all.iter().filter(|m| m.detection == Detection::NoResult).count();
     let rate = 100.0 * caught as f64 / all.len() as f64;
     let _ = write!(
         out,
         "Detection rate: **{caught} of {} ({rate:.0} %)**. Each row is one deliberate mistake, the claim that \
-         has to fail on it, and what that claim measured.\n\n",
+         has to fail on it, and what that claim measured. Where that is \"no result\", a guard stopped the run \
+         or it did not settle, while the honest run does settle ({unmeasured} of the detections).\n\n",
         all.len()
     );
     let row = |m: &&MutantRecord| {
         let source = format!("{}<br>`{}`", m.erratum, m.mutant);
-        let against = format!("{} against a tolerance of {}", scientific(m.error), scientific(m.tolerance));
+        let error = format!("{} against a tolerance of {}", scientific(m.error), scientific(m.tolerance));
+        let against = match m.detection {
+            Detection::NoResult => "no result".to_owned(),
+            Detection::Order => format!("{error}; the order is off"),
+            Detection::Error | Detection::Escaped => error,
+        };
         let word = if m.caught { "caught" } else { "**escaped**" };
         vec![source, m.description.clone(), format!("`{}`", m.caught_by), against, word.to_owned()]
     };

@@ -207,7 +207,7 @@ pub enum VerifyError {
     #[error("{what} did not work out: {detail}")]
     Numerics { what: &'static str, detail: String },
     /// The run did not become steady.
-    #[error("not steady after {steps} steps: residual {residual:e} > {wanted:e}")]
+    #[error("not steady after {steps} steps: residual {residual:.2e} > {wanted:.0e}")]
     NotSteady { steps: u64, residual: f64, wanted: f64 },
 }
 

@@ -46,7 +46,7 @@ pub fn judge(claim: &Claim, outcomes: &[Outcome]) -> Record {
         }
     }
     let last = outcomes.last().map_or(f64::NAN, |o| o.parameter);
-    let slack = check_tolerance(claim, &samples, last, &mut reasons);
+    let slack = check_tolerance(claim, &samples, &failed, last, &mut reasons);
     let order = check_order(claim, &samples, &mut reasons);
     Record {
         claim: claim.id.to_owned(),
@@ -72,7 +72,13 @@ pub fn judge(claim: &Claim, outcomes: &[Outcome]) -> Record {
 }
 
 /// Least tolerance / error; adds a reason for every rung above the tolerance (a NaN is above).
-fn check_tolerance(claim: &Claim, samples: &[Sample], last: f64, reasons: &mut Vec<String>) -> f64 {
+fn check_tolerance(
+    claim: &Claim,
+    samples: &[Sample],
+    failed: &[FailedRung],
+    last: f64,
+    reasons: &mut Vec<String>,
+) -> f64 {
     let bound = claim.tolerance.value;
     let mut slack = f64::INFINITY;
     let mut judged = 0;
@@ -88,8 +94,11 @@ fn check_tolerance(claim: &Claim, samples: &[Sample], last: f64, reasons: &mut V
         slack = if room < slack || room.is_nan() { room } else { slack };
     }
     if judged == 0 {
-        reasons.push(format!("no rung for the tolerance ({})", claim.tolerance.at.describe(&claim.ladder)));
         slack = f64::NAN;
+    }
+    // A covered rung without result has its own reason already.
+    if judged == 0 && !failed.iter().any(|f| claim.tolerance.at.covers(f.parameter, last)) {
+        reasons.push(format!("no rung for the tolerance ({})", claim.tolerance.at.describe(&claim.ladder)));
     }
     slack
 }

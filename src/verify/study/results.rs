@@ -12,7 +12,7 @@ use crate::verify::claims;
 use crate::verify::evaluate::{Outcome, judge, rung};
 use crate::verify::exhibit::{Exhibit, ExhibitRecord};
 use crate::verify::golden::circumstances;
-use crate::verify::mutant::{self, Mutant, MutantRecord};
+use crate::verify::mutant::{self, Detection, Mutant, MutantRecord};
 use crate::verify::record::Record;
 
 /// What a study computed.
@@ -43,15 +43,13 @@ impl Results {
     /// Computes what the options select. The results do not depend on the number of threads.
     #[must_use]
     pub fn compute(study: &Study, backend: &dyn Backend, options: &Options) -> Self {
-        let claims = study.claims.iter().filter(|c| options.selects(c.id));
-        let rungs = claims
-            .clone()
-            .flat_map(|c| c.ladder.rungs(options.depth()).iter().map(move |&p| Job::Rung(c, p)));
+        let claims: Vec<&'static Claim> = study.claims.iter().filter(|c| options.selects(c.id)).collect();
         let (timed, untimed): (Vec<&Exhibit>, Vec<&Exhibit>) =
             study.exhibits.iter().filter(|e| options.selects(e.id)).partition(|e| e.timed);
-        let mutants = study.mutants.iter().filter(|m| options.selects(m.id));
-        let jobs: Vec<Job> =
-            rungs.chain(untimed.into_iter().map(Job::Exhibit)).chain(mutants.map(Job::Mutant)).collect();
+        let mutants: Vec<&'static Mutant> = study.mutants.iter().filter(|m| options.selects(m.id)).collect();
+        let mut jobs: Vec<Job> = rungs(study, &claims, &mutants, options);
+        jobs.extend(untimed.into_iter().map(Job::Exhibit));
+        jobs.extend(mutants.iter().copied().map(Job::Mutant));
 
         let total = jobs.len() + timed.len();
         let progress = Progress::new(study.id, total as u64, false);
@@ -73,10 +71,10 @@ impl Results {
         };
         done.extend(timed.into_iter().map(|e| work(&Job::Exhibit(e))));
         progress.finish();
-        Self::gather(claims, done)
+        Self::gather(study, &claims, options, done)
     }
 
-    fn gather(claims: impl Iterator<Item = &'static Claim>, done: Vec<Done>) -> Self {
+    fn gather(study: &Study, claims: &[&'static Claim], options: &Options, done: Vec<Done>) -> Self {
         let (mut outcomes, mut exhibits, mut mutants) = (Vec::new(), Vec::new(), Vec::new());
         for done in done {
             match done {
@@ -85,10 +83,22 @@ impl Results {
                 Done::Mutant(mutant, record) => mutants.push((mutant, record)),
             }
         }
-        let of = |claim: &Claim| -> Vec<Outcome> {
-            outcomes.iter().filter(|(id, _)| *id == claim.id).map(|(_, o)| o.clone()).collect()
+        let at = |claim: &Claim, rungs: &[f64]| -> Vec<Outcome> {
+            let find = |p: &f64| outcomes.iter().find(|(id, o)| *id == claim.id && same(o.parameter, *p));
+            rungs.iter().filter_map(find).map(|(_, o)| o.clone()).collect()
         };
-        let records = claims.map(|claim| (claim, judge(claim, &of(claim)))).collect();
+        let judged =
+            |&claim: &&'static Claim| (claim, judge(claim, &at(claim, claim.ladder.rungs(options.depth()))));
+        let confirmed =
+            |(mutant, record): (&'static Mutant, MutantRecord)| match find_claim(study, mutant.caught_by) {
+                Some(claim) => {
+                    let control = at(claim, &mutant::rungs(mutant, claim));
+                    (mutant, mutant::confirm(record, mutant, claim, &control))
+                }
+                None => (mutant, record),
+            };
+        let records = claims.iter().map(judged).collect();
+        let mutants = mutants.into_iter().map(confirmed).collect();
         Self { records, exhibits, mutants }
     }
 
@@ -108,6 +118,36 @@ impl Results {
     }
 }
 
+/// The rungs of the claims, and those at which the mutants' claims serve as control; each once.
+fn rungs(
+    study: &Study,
+    claims: &[&'static Claim],
+    mutants: &[&'static Mutant],
+    options: &Options,
+) -> Vec<Job> {
+    let mut wanted: Vec<(&'static Claim, f64)> = Vec::new();
+    let mut add = |claim: &'static Claim, rungs: &[f64]| {
+        for &p in rungs {
+            if !wanted.iter().any(|(c, q)| c.id == claim.id && same(*q, p)) {
+                wanted.push((claim, p));
+            }
+        }
+    };
+    for claim in claims {
+        add(claim, claim.ladder.rungs(options.depth()));
+    }
+    for mutant in mutants {
+        if let Some(claim) = find_claim(study, mutant.caught_by) {
+            add(claim, &mutant::rungs(mutant, claim));
+        }
+    }
+    wanted.into_iter().map(|(claim, p)| Job::Rung(claim, p)).collect()
+}
+
+fn same(a: f64, b: f64) -> bool {
+    a.to_bits() == b.to_bits()
+}
+
 fn run(study: &Study, backend: &dyn Backend, full: bool, job: Job) -> Done {
     match job {
         Job::Rung(claim, parameter) => Done::Rung(claim, rung(claim, backend, parameter)),
@@ -120,7 +160,7 @@ fn run(study: &Study, backend: &dyn Backend, full: bool, job: Job) -> Done {
         }
         Job::Mutant(mutant) => {
             let record = match find_claim(study, mutant.caught_by) {
-                Some(claim) => mutant::evaluate(mutant, claim, backend),
+                Some(claim) => mutant::uncontrolled(mutant, claim, backend),
                 None => orphan(mutant),
             };
             Done::Mutant(mutant, record)
@@ -141,6 +181,7 @@ fn orphan(mutant: &Mutant) -> MutantRecord {
         description: mutant.description.to_owned(),
         caught_by: mutant.caught_by.to_owned(),
         caught: false,
+        detection: Detection::Escaped,
         error: f64::NAN,
         tolerance: f64::NAN,
         how: format!("there is no claim `{}`", mutant.caught_by),
@@ -159,7 +200,7 @@ fn describe(done: &Done) -> String {
         Done::Exhibit(exhibit, Ok(_)) => exhibit.id.to_owned(),
         Done::Exhibit(exhibit, Err(error)) => format!("{}: {error}", exhibit.id),
         Done::Mutant(mutant, record) => {
-            format!("{}: {}", mutant.id, if record.caught { "caught" } else { "escaped" })
+            format!("mutant {}: error {:.3e}", mutant.id, record.error)
         }
     }
 }
