@@ -6,7 +6,7 @@ mod common;
 
 use common::{LAWS, Numbers, OPERATORS, TREATMENTS};
 use lahar::boundary::bounce_back::bounce_back;
-use lahar::boundary::wall_slip::{stress_source, tangential, wall_slip};
+use lahar::boundary::wall_slip::{curvature_velocity, link_correction, stress_source, tangential};
 use lahar::collision::Collision;
 use lahar::lane::{Lane, Pack};
 use lahar::lattice::Q;
@@ -108,6 +108,7 @@ impl Kernel for CollisionKernel {
         let (h, force) = split(x);
         let omega = L::splat(self.1);
         let mut out = self.0.collide(&h, &moments(&h, &force), omega).to_vec();
+        out.extend(self.0.odd_departure(&h, &moments(&h, &force)));
         out.extend([self.0.odd_omega(omega), self.0.wanted_odd_excess(omega)]);
         out
     }
@@ -180,7 +181,9 @@ impl Kernel for WallKernel {
         let mut out: Vec<L> = (1..Q).map(|i| bounce_back(x[0], i, L::one() + x[4], &v)).collect();
         let along = tangential(&v, &[0.6, 0.0, 0.8]);
         out.extend(along);
-        out.extend(wall_slip(&along, L::one() + x[4], x[5].abs(), L::splat(1.2)));
+        out.extend(curvature_velocity(&along, x[5].abs()));
+        let (excess, _) = split(x);
+        out.extend(link_correction(&excess, |i| [4, 8, 9, 16, 18].contains(&i)));
         let q = std::array::from_fn(|k| x[6 + k]);
         for wanted in [0.0, 0.02, 0.3] {
             out.extend(stress_source(&v, &q, L::splat(wanted), L::splat(1.0 / 0.55)));

@@ -102,6 +102,10 @@ impl Physics for WrongPhysics {
         }
     }
 
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        self.base.odd_departure(h, m)
+    }
+
     fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L {
         self.base.tangent_fluidity(fluid, rho, omega, q)
     }
