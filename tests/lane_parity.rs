@@ -182,8 +182,8 @@ impl Kernel for WallKernel {
         let along = tangential(&v, &[0.6, 0.0, 0.8]);
         out.extend(along);
         out.extend(curvature_velocity(&along, x[5].abs()));
-        let (excess, _) = split(x);
-        out.extend(link_correction(&excess, |i| [4, 8, 9, 16, 18].contains(&i)));
+        let excess = std::array::from_fn(|i| x[i % x.len()]);
+        out.extend(link_correction(&excess, |i| i % 3 == 1));
         let q = std::array::from_fn(|k| x[6 + k]);
         for wanted in [0.0, 0.02, 0.3] {
             out.extend(stress_source(&v, &q, L::splat(wanted), L::splat(1.0 / 0.55)));

@@ -85,7 +85,6 @@ macro_rules! for_each_collision {
         }
     };
 }
-pub(crate) use for_each_collision;
 
 /// Any operator, chosen per call: for analysis and for rarely used combinations.
 impl Collision for CollisionChoice {

@@ -5,11 +5,11 @@ use serde::Serialize;
 use super::law::{self, apparent_viscosity, has_plug, plastic_viscosity};
 use super::memory::{Item, items};
 use super::scale::{Scales, norm};
-use crate::stability::max_stable_speed;
 use super::time_step::{StepRule, reference_viscosity};
 use crate::collision::CollisionChoice;
 use crate::scene::{Rheology, Scene};
 use crate::solver::setup::{BodyForce, Face, Setup, WallRule, YieldTreatment};
+use crate::stability::max_stable_speed;
 use crate::units::Units;
 
 /// Cell updates per second assumed for the cost estimate: plain backend, one thread.

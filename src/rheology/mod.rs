@@ -124,7 +124,6 @@ macro_rules! for_each_law {
         }
     };
 }
-pub(crate) use for_each_law;
 
 /// Any law, chosen per call: for flows of several fluids.
 impl Rheology for Law {

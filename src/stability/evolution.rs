@@ -21,8 +21,7 @@ impl Spectrum {
     /// Discrete Fourier transform of `populations` (x fastest) in a box of `cells`³.
     #[must_use]
     pub fn of(populations: &[[f64; Q]], cells: usize) -> Self {
-        let mut amplitudes: Vec<[c64; Q]> =
-            populations.iter().map(|h| h.map(|x| c64::new(x, 0.0))).collect();
+        let mut amplitudes: Vec<[c64; Q]> = populations.iter().map(|h| h.map(|x| c64::new(x, 0.0))).collect();
         for stride in [1, cells, cells * cells] {
             transform(&mut amplitudes, cells, stride);
         }
@@ -77,7 +76,7 @@ fn transform(amplitudes: &mut [[c64; Q]], n: usize, stride: usize) {
         })
         .collect();
     let mut line = vec![[c64::new(0.0, 0.0); Q]; n];
-    for start in (0..amplitudes.len()).filter(|at| (at / stride) % n == 0) {
+    for start in (0..amplitudes.len()).filter(|at| (at / stride).is_multiple_of(n)) {
         for (k, out) in line.iter_mut().enumerate() {
             *out = [c64::new(0.0, 0.0); Q];
             for i in 0..n {

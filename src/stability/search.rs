@@ -62,6 +62,8 @@ pub struct Search {
 }
 
 impl Search {
+    /// For tables where the limit is smooth (τ⁺ ≥ 0.52): a second per entry.
+    pub const SMOOTH: Self = Self { grids: &[16, 22], starts: 16 };
     /// For tables: a few seconds per entry.
     pub const THOROUGH: Self = Self { grids: &[16, 22, 34, 46], starts: 16 };
     /// For showing how much a table still depends on the search.
@@ -72,6 +74,8 @@ impl Search {
 
 /// Speed from which the search descends: the speed of sound.
 pub const CEILING: f64 = 0.577;
+/// Speeds below this are not told apart from zero.
+const SLOWEST: f64 = 1e-9;
 /// Growing waves followed down in one round.
 const FOLLOWED: usize = 4;
 
@@ -253,7 +257,7 @@ fn climb(linearised: &Linearised, start: Peak, width: f64) -> Result<Peak, Stabi
 /// # Arguments
 /// `tau`: τ⁺ > ½.
 /// # Returns
-/// The speed and the wave that grows above it. It is an upper bound: a wave that no grid came near
+/// The speed and the wave that grows above it; zero and a wave that grows at rest, if there is one. It is an upper bound: a wave that no grid came near
 /// may grow at lower speed. Below τ⁺ = 0.51 the growing waves fill thin shells and the search
 /// scatters by about ±10 %.
 /// # Errors
@@ -270,8 +274,15 @@ pub fn max_stable_speed_along<O: Collision>(
 ) -> Result<Limit, StabilityError> {
     check_tau(tau)?;
     let mut limit = Limit { speed: CEILING, wave: [0.0; 3] };
+    let rest = Linearised::about(collision, tau, [0.0; 3]);
+    if let Some(&n) = search.grids.first() {
+        let peak = best(&peaks(&rest, n, search.starts)?);
+        if peak.radius > 1.0 + GROWTH_TOLERANCE {
+            return Ok(Limit { speed: 0.0, wave: peak.wave });
+        }
+    }
     let mut level = 0;
-    while let Some(&n) = search.grids.get(level) {
+    while let Some(&n) = search.grids.get(level).filter(|_| limit.speed > SLOWEST) {
         let linearised = Linearised::about(collision, tau, direction.velocity(limit.speed));
         let growing = growing(&linearised, n, search.starts)?;
         let ends: Result<Vec<Limit>, _> = growing
@@ -316,10 +327,14 @@ fn follow<O: Collision>(
     n: usize,
 ) -> Result<Limit, StabilityError> {
     let Limit { mut speed, mut wave } = from;
+    let rest = Linearised::about(collision, tau, [0.0; 3]);
     let mut width = 0.1 * 2.0 * PI / n as f64;
     for _ in 0..12 {
+        if rest.spectral_radius(wave)? > 1.0 + GROWTH_TOLERANCE {
+            return Ok(Limit { speed: 0.0, wave });
+        }
         let (mut low, mut high) = (0.0, speed);
-        while high - low > 1e-7 * high {
+        while high - low > 1e-7 * high && high > SLOWEST {
             let middle = 0.5 * (low + high);
             let radius =
                 Linearised::about(collision, tau, direction.velocity(middle)).spectral_radius(wave)?;

@@ -54,12 +54,13 @@ pub struct Column {
 }
 
 /// The operators of the table, with short names.
-pub const OPERATORS: [(&str, CollisionChoice); 5] = [
+pub const OPERATORS: [(&str, CollisionChoice); 6] = [
     ("BGK", CollisionChoice::Bgk),
     ("TRT, fixed 3/16", CollisionChoice::Trt(OddRate::fixed(3.0 / 16.0))),
     ("TRT", CollisionChoice::Trt(OddRate::STANDARD)),
     ("central moment", CollisionChoice::CentralMoment(OddRate::STANDARD)),
     ("regularised", CollisionChoice::Regularised),
+    ("central moment, fixed 3/16", CollisionChoice::CentralMoment(OddRate::fixed(3.0 / 16.0))),
 ];
 
 static TABLE: LazyLock<Vec<Column>> =

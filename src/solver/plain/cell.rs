@@ -57,6 +57,7 @@ pub fn residual_force(f: &[Cell], links: &Links, cell: usize, force: &[f64; 3]) 
 
 /// What the viscosity-independent wall subtracts from the populations leaving a boundary cell that
 /// holds fluid number `fluid` \[B3\]; `sourced`: whether \[K6\] acts.
+#[inline(never)]
 pub fn wall_correction<P: Physics>(
     physics: &P,
     record: &BoundaryCell,
@@ -115,6 +116,7 @@ pub fn gather<P: Physics>(
 }
 
 /// Streaming into a cell that touches a wall, a solid or a mirror plane \[B1\]–\[B3\].
+#[inline(never)]
 fn gather_boundary<P: Physics>(
     physics: &P,
     post: &[Cell],

@@ -85,6 +85,7 @@ impl<P: Physics> PlainRun<P> {
         Ok(())
     }
 
+    #[inline(never)]
     fn state(&self, cell: usize, force: &[f64; 3]) -> cell::State {
         let fluid = self.setup.fluid_of_cell.get(cell).copied().unwrap_or(0);
         let previous = self.previous_omega.get(cell).copied().unwrap_or(0.0);
@@ -155,6 +156,7 @@ impl<P: Physics> PlainRun<P> {
 
     /// Collides the cells from `start` on; returns the first one that fails the guard. `omegas` holds
     /// ω⁺ of the previous step on entry and of this step on return (empty unless lagged).
+    #[inline(never)]
     fn collide_chunk(
         &self,
         start: usize,

@@ -331,7 +331,7 @@ pub fn steady_from(
     let interval = (0.2 * relaxation).ceil().clamp(20.0, 1e6);
     // 40 relaxation times would take a start-up from rest below rounding; the rest is margin for
     // the slow adjustment of a plug.
-    run_steady(backend, setup, tolerance, interval as u64, (100.0 * relaxation).max(20_000.0) as u64)
+    run_steady(backend, setup, tolerance, interval as u64, (400.0 * relaxation).max(20_000.0) as u64)
 }
 
 /// What the unyielded core of a steady column does.

@@ -40,8 +40,8 @@ pub const MUTANTS: &[Mutant] = &[
         id: "shear-rate-halved",
         erratum: "ERRATA 3 (004 Eq 3.3 with 3.27)",
         description: "√(½ S:S) of the strain rate S: the yield stress doubles and the thesis' channel stands still.",
-        caught_by: "poiseuille-bingham",
-        rung: Some(64.0),
+        caught_by: "poiseuille-from-rest",
+        rung: Some(1.0),
         subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ShearRateHalved))),
     },
     Mutant {

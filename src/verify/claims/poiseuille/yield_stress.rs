@@ -154,7 +154,7 @@ pub const PLUG_RIGID: Claim = Claim {
     kind: Kind::Verification,
     measure: |backend, n| {
         let column = Column::unit(32, &Law::HerschelBulkley { sigma0: 0.5, k: 0.2, n }, 1.0, SPEED);
-        let steady = steady_column(backend, &column, 1e-13)?;
+        let steady = steady_column(backend, &column, 1e-12)?;
         let plug = Plug::of(&column, &steady.fields)?;
         Ok(Sample::absolute(n, plug.spread, 0.0)
             .with("plug cells", plug.cells as f64)
@@ -177,9 +177,9 @@ pub const FLOW_INDEX: Claim = Claim {
     },
     order: None,
     tolerance: Tolerance {
-        value: 1.4e-2,
+        value: 1.8e-2,
         at: Rung::Every,
-        because: "the closed form's leading term grows as N²Δx²(1 + 1/n)/n; with n = 0.25 it is 1.3e-2 at N = 32 \
+        because: "the closed form's leading term grows as N²Δx²(1 + 1/n)/n; with n = 0.25 it is 1.75e-2 at N = 32 \
                   (column `error of the scheme's closed form`)",
     },
     kind: Kind::Verification,
@@ -230,7 +230,7 @@ pub const SCHEME: Claim = Claim {
         value: 1e-9,
         at: Rung::Every,
         because: "the run stops at a change of 1e-12 per fifth of a relaxation time; the Mach term is \
-                  (wall shear)² = (16u/N)² = 3e-9 for n = 0.33 at u = 1e-4, with a coefficient below 0.1",
+                  (wall shear)² = (16u/N)² = 6e-10 for n = 0.33 at u = 5e-5, with a coefficient below one",
     },
     kind: Kind::Verification,
     measure: |backend, case| {
@@ -242,7 +242,7 @@ pub const SCHEME: Claim = Claim {
             5 => (THESIS, WallRule::ViscosityIndependent),
             _ => (Law::HerschelBulkley { sigma0: 0.5, k: 0.2, n: 1.3 }, WallRule::ViscosityIndependent),
         };
-        let column = Column { wall, ..Column::unit(32, &law, 1.0, 1e-4) };
+        let column = Column { wall, ..Column::unit(32, &law, 1.0, 5e-5) };
         let steady = steady_column(backend, &column, 1e-12)?;
         let continuum = Sample::linf(case, &steady.velocity(0), &column.reference()?).error;
         Ok(Sample::linf(case, &steady.velocity(0), &column.scheme()?)

@@ -58,10 +58,7 @@ pub const ODD_RATE: Exhibit = Exhibit {
     caption: "Largest stable speed at tau = 0.501 against the odd relaxation time: why the product 3/16 is given up near tau = 1/2.",
     timed: false,
     run: |_, full| {
-        let mut table = Table::new(
-            "tau = 0.501",
-            &["tau minus", "x", "x, reference", "xy", "xy, reference"],
-        );
+        let mut table = Table::new("tau = 0.501", &["tau minus", "x", "x, reference", "xy", "xy, reference"]);
         let mut found = [Vec::new(), Vec::new()];
         let mut reference = [Vec::new(), Vec::new()];
         // The first two take longest.
@@ -116,7 +113,10 @@ pub const GALILEAN: Exhibit = Exhibit {
     caption: "H10: change of the decay rate of carried Taylor-Green vortices, tau = 0.8, for every operator.",
     timed: false,
     run: |backend: &dyn Backend, _| {
-        let mut table = Table::new("Defect of the decay rate", &["operator", "Ma 0.1", "Ma 0.2", "Ma 0.3", "over U² at Ma 0.3"]);
+        let mut table = Table::new(
+            "Defect of the decay rate",
+            &["operator", "Ma 0.1", "Ma 0.2", "Ma 0.3", "over U² at Ma 0.3"],
+        );
         for (name, collision) in OPERATORS {
             let mut row = vec![name.into()];
             let mut last = (0.0, 1.0);

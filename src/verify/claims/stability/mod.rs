@@ -14,7 +14,7 @@ use crate::verify::study::Study;
 pub static STUDY: Study = Study {
     id: "stability",
     title: "Linear stability",
-    intro: "Below a certain viscosity, or above a certain speed, a scheme amplifies its own rounding errors. Linear analysis says where; runs show that it is right. *Stable* means that in an unbounded uniform flow of constant tau no wave grows by more than 1e-8 per step: necessary, not sufficient, because walls, gradients of tau and free surfaces are left out. The chapter also holds the cases that stress a scheme in other ways: two layers of very different viscosity, and waves and vortices carried by a fast stream.\n\nThe numbers of this chapter are eigenvalues, which agree between processors to rounding only, so they are compared to a relative 1e-9 and not bit for bit.",
+    intro: "Below a certain viscosity, or above a certain speed, a scheme amplifies its own rounding errors. Linear analysis says where; runs show that it is right. *Stable* means that in an unbounded uniform flow of constant tau no wave grows by more than 1e-8 per step: necessary, not sufficient, because walls, gradients of tau and free surfaces are left out. The chapter also holds the cases that stress a scheme in other ways: two layers of very different viscosity, and waves and vortices carried by a fast stream.\n\nThe numbers of this chapter are eigenvalues, which agree between processors to rounding only, and searches for the largest of them, which may then stop at slightly different waves; so they are compared to a relative 1e-5 and not bit for bit.",
     claims: &[
         limits::RATES,
         noise::EVOLUTION,
@@ -27,6 +27,7 @@ pub static STUDY: Study = Study {
         limits::CERTIFICATE,
         limits::QUARTER,
         limits::ODD_RATE,
+        limits::REST,
         galilean::PARALLEL,
         galilean::NORMAL,
         galilean::CENTRAL,
@@ -43,8 +44,9 @@ pub static STUDY: Study = Study {
     exhibits: &[exhibits::MAP, exhibits::ODD_RATE, exhibits::HISTORY, exhibits::GALILEAN],
     mutants: &[mutants::SWAPPED_RATES],
     limits: &[
+        "Below about tau = 0.5015 the central-moment operator with its default odd rate, and below about 0.5011 the regularised one, amplify waves even in fluid at rest (by 6e-4 per step at tau = 0.501): the stability limit is zero there. BGK and TRT are stable at rest at every tau.",
         "The limits are those of uniform flow: neither walls nor gradients of tau or velocity are in the analysis.",
         "Below tau = 0.51 the growing waves of operators with one small odd rate fill thin shells of wave vectors; the search then gives upper bounds that scatter by about 10 %.",
     ],
-    agreement: Agreement::Relative(1e-9),
+    agreement: Agreement::Relative(1e-5),
 };
