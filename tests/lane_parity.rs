@@ -108,6 +108,7 @@ impl Kernel for CollisionKernel {
         let (h, force) = split(x);
         let omega = L::splat(self.1);
         let mut out = self.0.collide(&h, &moments(&h, &force), omega).to_vec();
+        out.extend(self.0.odd_departure(&h, &moments(&h, &force)));
         out.extend([self.0.odd_omega(omega), self.0.wanted_odd_excess(omega)]);
         out
     }

@@ -57,6 +57,34 @@ proptest! {
         }
     }
 
+    /// Two operators that differ in ω⁻ only differ by the change of ω⁻ times the odd departure, which
+    /// has neither mass nor momentum.
+    #[test]
+    fn odd_departure_is_what_relaxes(seed in any::<u64>(), size in -9.0_f64..-0.5, tau in 0.52_f64..3.0) {
+        let (size, omega) = (ten_to(size), 1.0 / tau);
+        let mut numbers = Numbers::new(seed);
+        let (h, force) = (numbers.populations(size), numbers.vector(0.01 * size));
+        let m = moments(&h, &force);
+        let (slow, fast) = (OddRate::fixed(0.25), OddRate::fixed(0.05));
+        // At most 60 operations on sums of populations below `size`, for each of the two.
+        let bound = 2.0 * 60.0 * 0.5 * f64::EPSILON * size;
+        for [a, b] in [
+            [CollisionChoice::Trt(slow), CollisionChoice::Trt(fast)],
+            [CollisionChoice::CentralMoment(slow), CollisionChoice::CentralMoment(fast)],
+        ] {
+            let departure = a.odd_departure(&h, &m);
+            prop_assert_eq!(departure, b.odd_departure(&h, &m));
+            prop_assert!(density_excess(&departure).abs() <= bound);
+            prop_assert!(momentum(&departure).iter().all(|j| j.abs() <= bound));
+            let change: f64 = b.odd_omega(omega) - a.odd_omega(omega);
+            let (post_a, post_b) = (a.collide(&h, &m, omega), b.collide(&h, &m, omega));
+            for i in 0..Q {
+                let found = post_a[i] - post_b[i];
+                prop_assert!((found - change * departure[i]).abs() <= bound, "{a:?} {i}: {found:e}");
+            }
+        }
+    }
+
     #[test]
     fn inverse_reproduces_moments(seed in any::<u64>(), size in -12.0_f64..1.0) {
         let size = ten_to(size);

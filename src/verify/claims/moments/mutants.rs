@@ -86,7 +86,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         id: "shear-rate-without-force-correction",
         erratum: "ERRATA 5 (all three papers)",
         description: "Non-equilibrium tensor without ½(uF + Fu).",
-        caught_by: "shear-rate-uniform-acceleration",
+        caught_by: "acceleration-without-shear",
         rung: None,
         subject: Subject::Backend(|| Box::new(Wrong(Mistake::NoForceInStress))),
     },
@@ -94,7 +94,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         id: "shear-rate-of-full-populations",
         erratum: "ERRATA 1 (000 Eq 13)",
         description: "γ_ab = 3/(2τ) Σ c_a c_b f, without subtracting the equilibrium.",
-        caught_by: "shear-rate-couette",
+        caught_by: "strain-tensor-couette",
         rung: Some(0.8),
         subject: Subject::Measure(|backend, tau| {
             couette_by(backend, tau, |h, tau| {
@@ -108,7 +108,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         id: "shear-rate-with-wrong-sign",
         erratum: "ERRATA 2 (001 Eq 9, 004 Eq 3.27)",
         description: "S = +1/(2τc_s²) Σ c c (f − f_eq): the factor −1/ρ is missing.",
-        caught_by: "shear-rate-couette",
+        caught_by: "strain-tensor-couette",
         rung: Some(0.8),
         subject: Subject::Measure(|backend, tau| {
             couette_by(backend, tau, |h, tau| {
@@ -121,7 +121,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         id: "shear-rate-of-half-the-tensor",
         erratum: "ERRATA 3 (004 Eq 3.3 with 3.27)",
         description: "γ̇ = √(½ S:S), which is right for 2S, applied to S.",
-        caught_by: "shear-rate-couette",
+        caught_by: "strain-tensor-couette",
         rung: Some(0.8),
         subject: Subject::Measure(|backend, tau| {
             couette_by(backend, tau, |h, tau| {
@@ -134,7 +134,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         id: "shear-rate-is-the-second-invariant",
         erratum: "ERRATA 4 (000 Eqs 2, 14; 004 Eq 3.35)",
         description: "The second invariant ½ S:S itself taken for the shear rate.",
-        caught_by: "shear-rate-couette",
+        caught_by: "strain-tensor-couette",
         rung: Some(0.8),
         subject: Subject::Measure(|backend, tau| {
             couette_by(backend, tau, |h, tau| {

@@ -84,10 +84,6 @@ impl Physics for WrongPhysics {
         self.base.odd_omega(omega)
     }
 
-    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
-        self.base.odd_departure(h, m)
-    }
-
     fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
         self.base.wanted_odd_excess(omega)
     }
@@ -104,6 +100,10 @@ impl Physics for WrongPhysics {
             Mistake::SwappedRates => self.base.collide(h, m, self.odd_omega(omega)),
             _ => self.base.collide(h, m, omega),
         }
+    }
+
+    fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+        self.base.odd_departure(h, m)
     }
 
     fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L {

@@ -189,7 +189,7 @@ fn measure_central(backend: &dyn Backend, n: f64) -> Result<Sample, VerifyError>
 
 /// The third moments of \[K3\] remove the defect.
 pub const CENTRAL: Claim = Claim {
-    id: "central-moment-galilean",
+    id: "central-moment-galilean-order",
     title: "The central-moment operator has no Galilean defect in shear: ν_eff/ν converges to 1 in a mean flow along the wave",
     tags: &["K3"],
     measures: "ν_eff/ν − 1 of a shear wave at τ = 0.8 in a mean flow 0.1 along its wave vector (BGK would stay at −0.03)",

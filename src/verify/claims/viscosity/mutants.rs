@@ -32,7 +32,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         id: "second-order-collision",
         erratum: "design K3 (004 Eq 3.25 keeps second order only)",
         description: "BGK, whose third moments lack ρ u u u, in place of the central-moment operator.",
-        caught_by: "central-moment-galilean",
+        caught_by: "central-moment-galilean-order",
         rung: None,
         subject: Subject::Backend(|| Box::new(Wrong(Mistake::AlwaysBgk))),
     },
