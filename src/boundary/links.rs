@@ -2,7 +2,7 @@
 //! solid or a mirror plane.
 
 use super::bounce_back::surface_velocity;
-use crate::lattice::{C, Q, W, direction, opposite};
+use crate::lattice::{C, Q, direction, opposite};
 use crate::solver::setup::{Face, Setup};
 
 /// Where a population comes from.
@@ -161,21 +161,22 @@ fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> {
     let at = setup.coordinates(cell);
     let mut sources = [Source::Cell { cell: cell as u32, direction: 0 }; Q];
     let mut ordinary = true;
-    let mut towards = [0.0; 3];
-    let mut spread = [0.0; 3];
+    let mut towards = [0; 3];
+    let mut spread = [0; 3];
     for i in 1..Q {
         let (source, plain) = resolve(setup, at, i);
         sources[i] = source;
         ordinary &= plain;
         if let Source::Wall(_) = source {
-            // The wall lies along −c_i.
+            // The wall lies along −c_i; weights in units of 1/36 keep the sums exact.
+            let w = if i <= 6 { 2 } else { 1 };
             for a in 0..3 {
-                towards[a] -= W[i] * f64::from(C[i][a]);
-                spread[a] += W[i] * f64::from(C[i][a] * C[i][a]);
+                towards[a] -= w * C[i][a];
+                spread[a] += w * C[i][a] * C[i][a];
             }
         }
     }
-    let touches_wall = spread.iter().any(|&s| s > 0.0);
+    let touches_wall = spread.iter().any(|&s| s > 0);
     (!ordinary).then(|| BoundaryCell {
         cell: cell as u32,
         sources,
@@ -185,11 +186,10 @@ fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> {
 }
 
 /// Unit wall normal of a cell; between two parallel walls, the axis most links cross.
-fn wall_normal(towards: [f64; 3], spread: [f64; 3]) -> [f64; 3] {
-    let length = ((towards[0] * towards[0] + towards[1] * towards[1]) + towards[2] * towards[2]).sqrt();
-    // Link weights are multiples of 1/36: anything smaller is a cancelled sum.
-    if length > 1e-9 {
-        return towards.map(|t| t / length);
+fn wall_normal(towards: [i32; 3], spread: [i32; 3]) -> [f64; 3] {
+    let squared: i32 = towards.iter().map(|t| t * t).sum();
+    if squared > 0 {
+        return towards.map(|t| f64::from(t) / f64::from(squared).sqrt());
     }
     let mut axis = 0;
     for a in 1..3 {

@@ -1,6 +1,7 @@
 //! The viscosity-independent wall \[B3\] and the residual force it needs.
 
 use crate::lane::Lane;
+use crate::lattice::moments::density_excess;
 use crate::lattice::{CS2, Q, W};
 
 /// f_t / (8 dσ/dγ̇) = |u″|/8: what the curvature of the velocity profile adds over the half cell
@@ -22,33 +23,51 @@ pub fn curvature_velocity<L: Lane>(tangential: &[L; 3], tangent_fluidity: L) -> 
     tangential.map(|f| f * (L::splat(1.0 / 8.0) * tangent_fluidity))
 }
 
-/// What a steady half-way link returns too much: (2 − ω⁻) d_i + s_i, less its weighted mean over the
-/// links that hit the wall; zero on the other links.
+/// How much of the curvature term the odd departure of the cell can carry: min(ρ/(8 dσ/dγ̇), 2τ⁻).
 ///
-/// d is the odd departure ([`crate::collision::Collision::odd_departure`]), s a source added after
-/// collision \[K6\]. For a lattice-aligned wall the sum over the links is the slip 2(τ⁻ − ½) f_t/ρ of
-/// the design, and the creep 2θF/ρ of a rigid cell. Taken link by link it holds for walls of any
-/// orientation, moving walls and unsteady flow, and needs no wall normal and no pressure gradient. The
-/// mean is removed so that no mass passes the wall.
+/// In steady flow the departure measures the stress gradient, so that ω⁻ d (2(τ⁻ − ½) − ρ/(8 dσ/dγ̇))
+/// corrects position and slip at once, with the inertia that F − ∇p leaves out; for a Newtonian fluid at
+/// Λ = 3/16 it is zero, as it should be. Up to 2τ⁻ the wall does not amplify the departure; what is
+/// above that is taken from F − ∇p ([`curvature_velocity`]).
 ///
 /// # Arguments
-/// `excess`: (2 − ω⁻) d + s, by direction. `is_wall(i)`: whether the link along c_i hits the wall.
+/// `rho`: density. `tangent_fluidity`: 1/(dσ/dγ̇), 0 if rigid. `odd_omega`: ω⁻.
+/// # Source
+/// Design \[B3\], extended to unsteady flow.
+/// # Verified by
+/// Claims `couette-start-up`, `poiseuille-newtonian-b3`.
+#[inline(always)]
+pub fn local_curvature<L: Lane>(rho: L, tangent_fluidity: L, odd_omega: L) -> L {
+    L::smaller(L::splat(1.0 / 8.0) * (rho * tangent_fluidity), L::splat(2.0) / odd_omega)
+}
+
+/// What a steady half-way link returns too much, less its weighted mean over the links that hit the
+/// wall; zero on the other links.
+///
+/// That is (2 − ω⁻) d_i + s_i for a straight profile, d the odd departure
+/// ([`crate::collision::Collision::odd_departure`]), s a source added after collision \[K6\]. For a
+/// lattice-aligned wall the sum over the links is the slip 2(τ⁻ − ½) f_t/ρ of the design, and the creep
+/// 2θF/ρ of a rigid cell. Taken link by link it holds for walls of any orientation and for moving
+/// walls, and needs no wall normal and no pressure gradient. The mean is removed so that no mass passes
+/// the wall.
+///
+/// # Arguments
+/// `excess`: by direction. `is_wall(i)`: whether the link along c_i hits the wall.
 /// # Returns
 /// What to subtract from the population that leaves along c_i before it comes back \[B1\].
+/// # Exactness
+/// Mirror-exact.
 /// # Source
 /// Design \[B3\], first term, derived link by link from f_i(x + c_i, t + 1) = f_i*(x, t) at steady state.
 /// # Verified by
 /// Claims `poiseuille-newtonian-b3`, `resting-layer-creep`.
 #[inline(always)]
 pub fn link_correction<L: Lane>(excess: &[L; Q], is_wall: impl Fn(usize) -> bool) -> [L; Q] {
-    let (mut sum, mut weight) = (L::zero(), 0.0);
-    for i in 1..Q {
-        if is_wall(i) {
-            sum = sum + excess[i];
-            weight += W[i];
-        }
-    }
-    let mean = if weight > 0.0 { sum * L::splat(1.0 / weight) } else { sum };
+    let hits: [L; Q] = std::array::from_fn(|i| if i > 0 && is_wall(i) { excess[i] } else { L::zero() });
+    // Weights in units of 1/36, so that their sum does not depend on the order.
+    let parts = |i: usize| if i <= 6 { 2 } else { 1 };
+    let weight: i32 = (1..Q).filter(|&i| is_wall(i)).map(parts).sum();
+    let mean = density_excess(&hits) * L::splat(if weight > 0 { 36.0 / f64::from(weight) } else { 0.0 });
     std::array::from_fn(|i| if i > 0 && is_wall(i) { excess[i] - L::splat(W[i]) * mean } else { L::zero() })
 }
 

@@ -1,7 +1,9 @@
 //! What one cell does in one step. Everything here reads the previous array only.
 
 use crate::boundary::links::{BoundaryCell, CellKind, Links, Source};
-use crate::boundary::wall_slip::{link_correction, pressure_slope, stress_source, tangential};
+use crate::boundary::wall_slip::{
+    link_correction, local_curvature, pressure_slope, stress_source, tangential,
+};
 use crate::lattice::moments::{Moments, add_third, density_excess, deviator};
 use crate::lattice::{C, Q, opposite};
 use crate::solver::physics::Physics;
@@ -68,22 +70,25 @@ pub fn wall_correction<P: Physics>(
     sourced: bool,
 ) -> Cell {
     let is_wall = |i: usize| matches!(record.sources[opposite(i)], Source::Wall(_));
+    let rho = state.m.rho;
+    let odd_omega = physics.odd_omega(state.omega);
+    let fluidity = physics.tangent_fluidity(fluid, rho, state.omega, physics.stress_magnitude(&state.m));
+    let local = local_curvature(rho, fluidity, odd_omega);
     let mut excess = [0.0; Q];
     if sourced {
         add_stress_source(physics, &mut excess, state, residual);
     }
-    let keep = 2.0 - physics.odd_omega(state.omega);
+    let keep = (2.0 - odd_omega) - odd_omega * local;
     let departure = physics.odd_departure(h, &state.m);
     for i in 1..Q {
         excess[i] += keep * departure[i];
     }
     let mut correction = link_correction(&excess, is_wall);
-    let q = physics.stress_magnitude(&state.m);
-    let fluidity = physics.tangent_fluidity(fluid, state.m.rho, state.omega, q);
-    let curved = physics.curvature_velocity(&tangential(residual, &record.normal), fluidity);
+    let along = tangential(residual, &record.normal);
+    let curved = physics.curvature_velocity(&along, fluidity - 8.0 * local / rho);
     for i in 1..Q {
         if is_wall(i) {
-            correction[i] -= physics.wall(0.0, i, state.m.rho, &curved);
+            correction[i] -= physics.wall(0.0, i, rho, &curved);
         }
     }
     correction
