@@ -83,4 +83,6 @@ fn limit_between_rows_lies_between_them() {
     assert!(at(0.52) < at(0.53) && at(0.53) < at(0.535));
     assert!(at(0.500_25) < at(0.5005));
     assert_eq!(at(f64::INFINITY), at(100.0));
+    let rigid = max_stable_speed(&CollisionChoice::default(), f64::INFINITY);
+    assert_eq!(rigid, Ok(StabilityLimit { speed: 0.0, exact: false }));
 }
