@@ -402,7 +402,7 @@ pub const RIGID: Claim = Claim {
     },
     kind: Kind::PredictedFailure,
     measure: |_, parameter| {
-        let search = Search { grids: &[16, 22], starts: 12 };
+        let search = Search { grids: &[16], starts: 12 };
         let mut worst = 0.0_f64;
         for direction in Direction::ALL {
             let moving = Linearised::about(
