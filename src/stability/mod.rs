@@ -88,7 +88,9 @@ pub struct StabilityLimit {
 /// about a second.
 ///
 /// # Arguments
-/// `tau`: τ⁺ > ½; infinite stands for an unyielded cell.
+/// `tau`: τ⁺ > ½; infinite stands for an unyielded cell whose ω⁺ stays zero whatever happens. A real one
+/// yields when the wave's stress reaches σ₀, which bounds what such a wave can do: judge a yield-stress
+/// flow by the τ⁺ of its yielded part.
 /// # Errors
 /// τ⁺ is not above ½, or eigenvalues did not converge.
 /// # Source

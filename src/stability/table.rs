@@ -75,7 +75,8 @@ pub fn table() -> &'static [Column] {
 /// Least limit of the table at τ⁺; `None` for an operator or parameters that are not in it.
 ///
 /// Between rows: linear in ln(τ⁺ − ½). Below the first row: proportional to τ⁺ − ½, the steepest fall
-/// of any row. Above the last row: its value.
+/// of any row. Above the last row: its value; but where the limit still falls there (the central-moment
+/// and regularised operators), as τ⁺^(−1/2), hence zero for a cell that never yields.
 #[must_use]
 pub fn interpolated(collision: &CollisionChoice, tau: f64) -> Option<f64> {
     let rows = &table().iter().find(|c| c.collision == *collision)?.rows;
@@ -84,7 +85,10 @@ pub fn interpolated(collision: &CollisionChoice, tau: f64) -> Option<f64> {
         return Some(first.least() * (tau - 0.5) / (first.tau - 0.5));
     }
     if tau >= last.tau {
-        return Some(last.least());
+        let before = rows.iter().rev().nth(1).map_or(last.least(), Row::least);
+        let falling = last.least() < 0.9 * before;
+        let part = if falling { (last.tau / tau).sqrt() } else { 1.0 };
+        return Some(last.least() * part);
     }
     let upper = rows.iter().position(|row| row.tau >= tau)?;
     let (a, b) = (&rows[upper - 1], &rows[upper]);

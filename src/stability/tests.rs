@@ -6,18 +6,13 @@ use crate::lattice::{C, Q};
 fn conserves_mass_and_momentum_linearly() {
     for (name, operator) in OPERATORS {
         let linearised = Linearised::about(&operator, 0.6, [0.05, -0.03, 0.08]);
-        for j in 0..Q {
-            let column = |weight: fn(usize) -> f64| {
+        for (j, c) in C.iter().enumerate() {
+            let sum = |weight: &dyn Fn(usize) -> f64| {
                 (0..Q).map(|i| weight(i) * linearised.jacobian()[i][j]).sum::<f64>()
             };
-            let sums = [
-                column(|_| 1.0),
-                column(|i| f64::from(C[i][0])),
-                column(|i| f64::from(C[i][1])),
-                column(|i| f64::from(C[i][2])),
-            ];
-            let expected = [1.0, f64::from(C[j][0]), f64::from(C[j][1]), f64::from(C[j][2])];
-            for (sum, expected) in sums.into_iter().zip(expected) {
+            let mut pairs = vec![(sum(&|_| 1.0), 1.0)];
+            pairs.extend((0..3).map(|a| (sum(&|i| f64::from(C[i][a])), f64::from(c[a]))));
+            for (sum, expected) in pairs {
                 // About 200 operations on numbers of order one.
                 assert!((sum - expected).abs() < 200.0 * f64::EPSILON, "{name}: {sum} {expected}");
             }
@@ -83,4 +78,6 @@ fn limit_between_rows_lies_between_them() {
     assert!(at(0.52) < at(0.53) && at(0.53) < at(0.535));
     assert!(at(0.500_25) < at(0.5005));
     assert_eq!(at(f64::INFINITY), at(100.0));
+    let rigid = max_stable_speed(&CollisionChoice::default(), f64::INFINITY);
+    assert_eq!(rigid, Ok(StabilityLimit { speed: 0.0, exact: false }));
 }

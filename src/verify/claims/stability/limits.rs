@@ -8,7 +8,9 @@ use crate::stability::{
     Direction, GROWTH_TOLERANCE, Limit, Linearised, Search, StabilityError, growth, max_stable_speed_along,
     peak,
 };
-use crate::verify::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::verify::claim::{
+    Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 
 /// Operators of the reference table.
 #[derive(Clone, Copy)]
@@ -373,6 +375,44 @@ pub const REST: Claim = Claim {
         let rest = Linearised::about(&CollisionChoice::default(), tau, [0.0; 3]);
         let peak = peak(&rest, &search).map_err(numerics)?;
         Ok(Sample::absolute(tau, (peak.radius - 1.0).max(0.0), 0.0))
+    },
+};
+
+/// Rigid material in motion.
+pub const RIGID: Claim = Claim {
+    id: "neumann-moving-plug",
+    title: "A wave in moving unyielded material (rate frozen at zero) grows as the square of the speed under the default operator",
+    tags: &["K3", "K5"],
+    measures: "largest growth per step over all waves at zero even rate, largest of the directions x, xy, xyz, central-moment operator",
+    reference: Reference {
+        source: "0: a rigid body keeps its shape. Neither the xyz moment nor independent fourth moments exist in D3Q19, so errors in U² remain",
+        uncertainty: 0.0,
+    },
+    metric: Metric::Absolute,
+    ladder: Ladder {
+        parameter: "1/U (lattice units)",
+        short: &[20.0, 50.0, 100.0],
+        full: &[5.0, 10.0, 20.0, 50.0, 100.0, 200.0],
+    },
+    order: Some(OrderBand { expected: 2.0, band: 0.2, at_least: false }),
+    tolerance: Tolerance {
+        value: 0.1,
+        at: Rung::Every,
+        because: "an error of the operator of the order U², 0.04 at the largest speed of the ladder, with a coefficient of at most 2.5",
+    },
+    kind: Kind::PredictedFailure,
+    measure: |_, parameter| {
+        let search = Search { grids: &[16], starts: 12 };
+        let mut worst = 0.0_f64;
+        for direction in Direction::ALL {
+            let moving = Linearised::about(
+                &CollisionChoice::default(),
+                f64::INFINITY,
+                direction.velocity(1.0 / parameter),
+            );
+            worst = worst.max(peak(&moving, &search).map_err(numerics)?.radius - 1.0);
+        }
+        Ok(Sample::absolute(parameter, worst, 0.0).with("growth / U^2", worst * parameter * parameter))
     },
 };
 
