@@ -23,22 +23,26 @@ pub fn curvature_velocity<L: Lane>(tangential: &[L; 3], tangent_fluidity: L) -> 
     tangential.map(|f| f * (L::splat(1.0 / 8.0) * tangent_fluidity))
 }
 
-/// How much of the curvature term the odd departure of the cell can carry: min(ρ/(8 dσ/dγ̇), 2τ⁻).
+/// How much of the curvature term the odd departure of the cell carries: min(3/(8(τ⁺ − ½)), 2(τ⁻ − ½)).
 ///
-/// In steady flow the departure measures the stress gradient, so that ω⁻ d (2(τ⁻ − ½) − ρ/(8 dσ/dγ̇))
-/// corrects position and slip at once, with the inertia that F − ∇p leaves out; for a Newtonian fluid at
-/// Λ = 3/16 it is zero, as it should be. Up to 2τ⁻ the wall does not amplify the departure; what is
-/// above that is taken from F − ∇p ([`curvature_velocity`]).
+/// In steady flow the departure measures the stress gradient, so that ω⁻ d (2(τ⁻ − ½) − 3/(8(τ⁺ − ½)))
+/// corrects position and slip at once and includes the inertia that F − ∇p leaves out: for a Newtonian
+/// fluid at Λ = 3/16 it is zero, as it should be. The second bound keeps the factor from turning
+/// negative, so that the wall damps the departure at least as much as plain bounce-back; what is left of
+/// the curvature is taken from F − ∇p ([`curvature_velocity`]).
 ///
 /// # Arguments
-/// `rho`: density. `tangent_fluidity`: 1/(dσ/dγ̇), 0 if rigid. `odd_omega`: ω⁻.
+/// `omega`, `odd_omega`: the cell's ω⁺ and ω⁻; ω⁺ = 0 (rigid) gives 0.
 /// # Source
 /// Design \[B3\], extended to unsteady flow.
 /// # Verified by
 /// Claims `couette-start-up`, `poiseuille-newtonian-b3`.
 #[inline(always)]
-pub fn local_curvature<L: Lane>(rho: L, tangent_fluidity: L, odd_omega: L) -> L {
-    L::smaller(L::splat(1.0 / 8.0) * (rho * tangent_fluidity), L::splat(2.0) / odd_omega)
+pub fn local_curvature<L: Lane>(omega: L, odd_omega: L) -> L {
+    let half = L::splat(0.5);
+    // 1/(τ⁺ − ½) = ω/(1 − ω/2): finite at ω = 0.
+    let curvature = L::splat(3.0 / 8.0) * (omega / (L::one() - half * omega));
+    L::smaller(curvature, L::splat(2.0) * (L::one() / odd_omega - half))
 }
 
 /// What a steady half-way link returns too much, less its weighted mean over the links that hit the

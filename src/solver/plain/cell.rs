@@ -73,7 +73,7 @@ pub fn wall_correction<P: Physics>(
     let rho = state.m.rho;
     let odd_omega = physics.odd_omega(state.omega);
     let fluidity = physics.tangent_fluidity(fluid, rho, state.omega, physics.stress_magnitude(&state.m));
-    let local = local_curvature(rho, fluidity, odd_omega);
+    let local = local_curvature(state.omega, odd_omega);
     let mut excess = [0.0; Q];
     if sourced {
         add_stress_source(physics, &mut excess, state, residual);
