@@ -81,7 +81,7 @@ pub fn second<L: Lane>(h: &[L; Q]) -> [L; 6] {
 /// # Exactness
 /// Mirror-exact.
 /// # Source
-/// Design [K3].
+/// Design \[K3\].
 /// # Verified by
 /// Property `inverse_reproduces_moments`.
 #[inline(always)]
@@ -166,7 +166,7 @@ pub fn magnitude<L: Lane>(q: &[L; 6]) -> L {
 /// # Exactness
 /// Mirror-exact; Σ h equals `m0` to the rounding of one subtraction.
 /// # Source
-/// Design [K3].
+/// Design \[K3\].
 /// # Verified by
 /// Property `inverse_reproduces_moments`.
 #[inline(always)]
@@ -223,7 +223,7 @@ pub fn populations<L: Lane>(m0: L, m1: &[L; 3], m2: &[L; 6], m3: &[L; 6], m4: &[
 /// Adds `delta` to the six third moments without touching density, momentum, second and fourth moments.
 ///
 /// # Source
-/// Design [K6] needs it; same inverse as [`populations`].
+/// Design \[K6\] needs it; same inverse as [`populations`].
 /// # Verified by
 /// Property `inverse_reproduces_moments`.
 #[inline(always)]

@@ -37,20 +37,20 @@ pub struct SolidMotion {
 /// How the yield stress enters the relaxation time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum YieldTreatment {
-    /// [Y1]–[Y3]: solved exactly in each cell, no viscosity cap.
+    /// \[Y1\]–\[Y3\]: solved exactly in each cell, no viscosity cap.
     Exact,
-    /// [Y3] with the resulting τ clamped: the trilinear law, implicit.
+    /// \[Y3\] with the resulting τ clamped: the trilinear law, implicit.
     ImplicitClamped { tau_min: f64, tau_max: f64 },
-    /// [Y4]: the papers' scheme; γ̇ from the previous step's τ, then clamped (one more field: τ).
+    /// \[Y4\]: the papers' scheme; γ̇ from the previous step's τ, then clamped (one more field: τ).
     LaggedClamped { tau_min: f64, tau_max: f64 },
 }
 
 /// Which wall velocity half-way bounce-back uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WallRule {
-    /// [B1] as it stands.
+    /// \[B1\] as it stands.
     HalfWay,
-    /// [B3]: corrected for the known slip, so that it does not depend on viscosity.
+    /// \[B3\]: corrected for the known slip, so that it does not depend on viscosity.
     ViscosityIndependent,
 }
 
@@ -100,7 +100,7 @@ pub struct Setup {
     pub collision: CollisionChoice,
     /// How walls treat the tangential velocity.
     pub wall_rule: WallRule,
-    /// [K6] source in the third moments (experimental).
+    /// \[K6\] source in the third moments (experimental).
     pub stress_source: bool,
     /// Body force.
     pub force: BodyForce,

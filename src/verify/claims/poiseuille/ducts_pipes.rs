@@ -245,7 +245,7 @@ pub const PIPE_HB: Claim = Claim {
 /// What the wall rule does on a staircase.
 pub const STAIRCASE: Exhibit = Exhibit {
     id: "pipe-wall-rules",
-    caption: "Round pipes with half-way and with viscosity-independent walls: the staircase decides, not the wall rule.",
+    caption: "Round pipes with half-way and with viscosity-independent walls: the staircase decides the order, the wall rule the size of the error.",
     timed: false,
     run: |backend, full| {
         let columns =

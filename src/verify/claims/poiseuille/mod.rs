@@ -71,8 +71,8 @@ pub static STUDY: Study = Study {
     ],
     mutants: mutants::MUTANTS,
     limits: &[
-        "Round walls are staircases of cells: pipes and rotating cylinders converge at first order, whichever wall rule \
-         is used.",
+        "Round walls are staircases of cells: pipes and rotating cylinders converge at first order with either wall \
+         rule; the rules differ in the size of the error.",
         "For n > 1 the shear rate leaves the yield surface more steeply than linearly, and the order falls to 1 + 1/n.",
         "The odd relaxation time follows the apparent viscosity. Above yield the tangent viscosity would be right, and \
          most of the error of Bingham and Herschel-Bulkley channels comes from the difference.",

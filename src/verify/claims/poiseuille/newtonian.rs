@@ -180,7 +180,7 @@ pub const CENTRAL_MACH: Claim = Claim {
     },
 };
 
-/// [B3] with BGK.
+/// \[B3\] with BGK.
 pub const B3: Claim = Claim {
     id: "poiseuille-newtonian-b3",
     title: "BGK between viscosity-independent walls gives the parabola at every τ",
@@ -206,7 +206,7 @@ pub const B3: Claim = Claim {
     },
 };
 
-/// [B3] far from ordinary relaxation times.
+/// \[B3\] far from ordinary relaxation times.
 pub const B3_LARGE_TAU: Claim = Claim {
     id: "poiseuille-newtonian-b3-large-tau",
     title: "The viscosity-independent wall holds at τ⁺ = 1000, τ⁻ = 0.55",

@@ -86,8 +86,9 @@ fn error_against_tau(backend: &dyn Backend, full: bool) -> Result<ExhibitData, V
         }
     }
     let notes = vec![
-        "The slip of [B3] is computed from F, not from F - rho du/dt. Where the flow is still accelerating it \
-         therefore costs accuracy: compare the two walls row by row. In steady flow it removes the wall error."
+        "The curvature of the profile at the wall is taken from F - grad p where the apparent viscosity does not \
+         account for it, and F is not the stress gradient while the flow accelerates: compare the two walls row by \
+         row. In steady flow [B3] removes the wall error."
             .to_owned(),
     ];
     Ok(ExhibitData { tables: vec![table], plots: vec![plot], notes })

@@ -86,10 +86,8 @@ mod tests {
 
     #[test]
     fn exact_fit_of_a_damped_cosine() {
-        let samples: Vec<f64> = (0..300)
-            .map(|t| f64::from(t))
-            .map(|t| libm::exp(-2e-3 * t) * libm::cos(0.06 * t + 0.4))
-            .collect();
+        let samples: Vec<f64> =
+            (0..300).map(f64::from).map(|t| libm::exp(-2e-3 * t) * libm::cos(0.06 * t + 0.4)).collect();
         let fitted = Oscillation::fit(&samples, 20).unwrap();
         // Rounding of the normal equations, whose condition is of order one.
         assert!((fitted.frequency / 0.06 - 1.0).abs() < 1e-12, "{fitted:?}");
