@@ -15,6 +15,8 @@ pub struct Item {
 
 /// Two copies of 19 populations in f64.
 pub const POPULATIONS: u64 = 2 * 19 * 8;
+/// What a cell is for streaming: one 32-bit number.
+const NEIGHBOURS: u64 = 4;
 /// Density, velocity, stress, shear rate and relaxation rate while fields are written.
 pub const FIELDS: u64 = (1 + 3 + 6 + 1 + 1) * 8;
 
@@ -22,7 +24,11 @@ pub const FIELDS: u64 = (1 + 3 + 6 + 1 + 1) * 8;
 #[must_use]
 pub fn items(setup: &Setup) -> Vec<Item> {
     let item = |what, bytes_per_cell| Item { what, bytes_per_cell };
-    let mut items = vec![item("populations, two copies", POPULATIONS), item("fields while writing", FIELDS)];
+    let mut items = vec![
+        item("populations, two copies", POPULATIONS),
+        item("neighbour table", NEIGHBOURS),
+        item("fields while writing", FIELDS),
+    ];
     if !setup.solids.is_empty() {
         items.push(item("solid numbers", 1));
     }
@@ -37,7 +43,7 @@ pub fn items(setup: &Setup) -> Vec<Item> {
 
 /// Upper bound of the bytes per cell, known before anything is allocated: all features and the
 /// scratch arrays of `plan`.
-pub const MOST_BYTES_PER_CELL: u64 = POPULATIONS + FIELDS + 1 + 1 + 8 + 4;
+pub const MOST_BYTES_PER_CELL: u64 = POPULATIONS + NEIGHBOURS + FIELDS + 1 + 1 + 8 + 4;
 
 /// Memory that can still be taken, bytes; `None` where the system does not say.
 #[must_use]
