@@ -1,4 +1,37 @@
 //! lahar: verification-first lattice-Boltzmann reference implementation for yield-stress fluids.
+//!
+//! # The way of a scene
+//! [`scene`] (SI, checked) → [`plan`] (lattice units, what is needed) → [`solver::setup::Setup`] →
+//! a [`solver::run::Run`] of some [`solver::run::Backend`] → [`output`]. Claims about the physics are
+//! in [`verify`]; [`report`] turns their records into `REPORT.md`.
+//!
+//! # The map
+//! Equation tags, where they are written down, and a claim that would notice a mistake. `REPORT.md` has
+//! the complete table, with the papers' equation numbers and the equations no claim checks.
+//!
+//! | tag | equation | file | claim |
+//! | --- | --- | --- | --- |
+//! | L1 | velocities and weights | `lattice/mod.rs` | `moment-identities` |
+//! | L2 | moment identities | `lattice/mod.rs` | `moment-identities`, `moment-defects-sixth-order` |
+//! | L3 | equilibrium | `lattice/equilibrium.rs` | `equilibrium-moments` |
+//! | L4 | density, velocity | `lattice/moments.rs` | `conservation-collision` |
+//! | L5 | body force | `collision/forcing_guo.rs` | `acceleration-without-shear` |
+//! | L6 | ν = (τ − ½)/3 | `rheology/relaxation.rs` | `shear-wave-axis-bgk` |
+//! | L7 | f − w stored | `lattice/mod.rs`, `solver/initial.rs` | `resting-layer-creep` |
+//! | Y1 | non-equilibrium tensor | `lattice/moments.rs` | `strain-tensor-couette` |
+//! | Y2 | strain rate, stress | `rheology/relaxation.rs` | `shear-rate-couette` |
+//! | Y3 | the local solve | `rheology/*.rs` | `poiseuille-bingham`, `poiseuille-herschel-bulkley` |
+//! | Y4 | lagged and implicit clamp | `rheology/relaxation.rs` | `poiseuille-clamped-lagged` |
+//! | K1 | one relaxation time | `collision/bgk.rs` | `poiseuille-newtonian-bgk-slip` |
+//! | K2 | two relaxation times | `collision/trt.rs`, `odd_rate.rs` | `poiseuille-newtonian-magic` |
+//! | K3 | central moments | `collision/central_moment.rs` | `central-moment-galilean` |
+//! | K4 | recursive regularised | `collision/regularised.rs` | `shear-wave-order-regularised` |
+//! | K5 | stability limits | `stability/` | `neumann-table` |
+//! | K6 | third-moment source | `boundary/wall_slip.rs` | exhibit `resting-layer-cures` |
+//! | B1 | half-way walls | `boundary/bounce_back.rs` | `poiseuille-newtonian-bgk-slip` |
+//! | B2 | mirror planes | `boundary/links.rs` | `mirror-quarter-duct` |
+//! | B3 | viscosity-independent walls | `boundary/wall_slip.rs` | `poiseuille-newtonian-b3` |
+
 pub mod boundary;
 pub mod collision;
 pub mod geometry;
