@@ -242,8 +242,10 @@ pub const BED: Claim = Claim {
 pub const CURES_TABLE: Exhibit = Exhibit {
     id: "resting-layer-cures",
     caption: "Unyielded material under a force F: largest speed left, over F/ρ, after the given number \
-              of steps. A θ of zero rings undamped; half-way walls creep at 2θ on aligned walls; the \
-              wall rule [B3] rests on every wall; the source [K6] rests on aligned walls only.",
+              of steps. A θ of zero rings undamped; half-way walls creep at 2θ where they are aligned \
+              with the grid. The wall rule [B3] rests on aligned and on 1:1 walls and cuts the creep on \
+              other staircases to a quarter; the source [K6] rests on aligned walls and makes most \
+              staircases worse. [B3] with θ = 0.05 is therefore the default.",
     timed: false,
     run: cures_table,
 };
