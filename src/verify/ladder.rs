@@ -65,7 +65,8 @@ pub fn faults(claim: &Claim) -> Vec<String> {
             faults.push(format!("claim `{}`: {fault}", claim.id));
         }
     };
-    let kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    // A point for ids that name a parameter: `…-0.6`.
+    let kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '.';
     let Ladder { short, full, parameter } = claim.ladder;
     check(!claim.id.is_empty() && claim.id.chars().all(kebab), "the id is not kebab-case");
     check(!claim.title.trim().is_empty(), "no title");
