@@ -34,6 +34,7 @@
 
 pub mod boundary;
 pub mod collision;
+pub mod free_surface;
 pub mod geometry;
 pub mod lane;
 pub mod lattice;

@@ -15,8 +15,15 @@ pub enum Source {
         /// Direction index; differs from the arriving one at a mirror plane \[B2\].
         direction: u8,
     },
-    /// Bounced back \[B1\] by a wall moving with this velocity.
-    Wall([f64; 3]),
+    /// Bounced back \[B1\].
+    Wall {
+        /// Velocity of the wall.
+        velocity: [f64; 3],
+        /// 0: a face of the box; s > 0: the solid `solid_motion[s − 1]`.
+        body: u8,
+    },
+    /// An open face; only with a free surface.
+    Open,
 }
 
 /// A cell that touches a wall, a solid or a mirror plane.
@@ -28,7 +35,7 @@ pub struct BoundaryCell {
     pub sources: [Source; Q],
     /// Unit vector towards the wall, weighted over the links that hit it; zero at a mirror plane.
     pub normal: [f64; 3],
-    /// Whether any link hits a wall or solid.
+    /// Whether any link hits a wall or solid (an open face is neither).
     pub touches_wall: bool,
 }
 
@@ -127,6 +134,31 @@ impl Links {
         step(0, x) + step(1, y) + step(2, z)
     }
 
+    /// Where population `i` that arrives in a cell comes from; the cell must not be solid.
+    #[inline]
+    #[must_use]
+    pub fn source(&self, cell: usize, i: usize) -> Source {
+        match self.kinds[cell] {
+            SOLID | BULK => {
+                let [nx, ny, _] = self.extents;
+                let upstream = self.upstream([cell % nx, (cell / nx) % ny, cell / (nx * ny)], i);
+                Source::Cell { cell: upstream as u32, direction: i as u8 }
+            }
+            slot => self.boundary[slot as usize].sources[i],
+        }
+    }
+
+    /// The neighbouring cell that population `i` comes from, its mirror image at a mirror plane; `None`
+    /// at walls, solids and open faces.
+    #[inline]
+    #[must_use]
+    pub fn neighbour_along(&self, cell: usize, i: usize) -> Option<usize> {
+        match self.source(cell, i) {
+            Source::Cell { cell, .. } => Some(cell as usize),
+            Source::Wall { .. } | Source::Open => None,
+        }
+    }
+
     /// The fluid neighbour along an axis, if there is one: the cell that populations come from.
     #[must_use]
     pub fn neighbour(&self, cell: usize, axis: usize, positive: bool) -> Option<usize> {
@@ -141,7 +173,7 @@ impl Links {
             }
             CellKind::Boundary(slot) => match self.boundary[slot].sources[i] {
                 Source::Cell { cell, .. } => Some(cell as usize),
-                Source::Wall(_) => None,
+                Source::Wall { .. } | Source::Open => None,
             },
         }
     }
@@ -167,7 +199,7 @@ fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> {
         let (source, plain) = resolve(setup, at, i);
         sources[i] = source;
         ordinary &= plain;
-        if let Source::Wall(_) = source {
+        if let Source::Wall { .. } = source {
             // The wall lies along −c_i; weights in units of 1/36 keep the sums exact.
             let w = if i <= 6 { 2 } else { 1 };
             for a in 0..3 {
@@ -209,6 +241,7 @@ fn resolve(setup: &Setup, at: [usize; 3], i: usize) -> (Source, bool) {
     let mut c = C[i];
     let mut ordinary = true;
     let mut wall: Option<[f64; 3]> = None;
+    let mut open = false;
     for axis in 0..3 {
         let n = setup.extents[axis];
         let (leaves, side) = match C[i][axis] {
@@ -229,14 +262,19 @@ fn resolve(setup: &Setup, at: [usize; 3], i: usize) -> (Source, bool) {
             }
             Face::NoSlip => wall = Some(add(wall, [0.0; 3])),
             Face::Moving(u) => wall = Some(add(wall, u)),
+            Face::Open => open = true,
         }
     }
     if let Some(u) = wall {
-        return (Source::Wall(u), false);
+        return (Source::Wall { velocity: u, body: 0 }, false);
+    }
+    if open {
+        return (Source::Open, false);
     }
     let cell = setup.index(upstream);
     if setup.is_solid(cell) {
-        return (Source::Wall(solid_velocity(setup, at, i, cell)), false);
+        let velocity = solid_velocity(setup, at, i, cell);
+        return (Source::Wall { velocity, body: setup.solids[cell] }, false);
     }
     let direction = direction(c).unwrap_or(0) as u8;
     (Source::Cell { cell: cell as u32, direction }, ordinary)

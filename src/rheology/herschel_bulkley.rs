@@ -39,6 +39,9 @@ impl Rheology for HerschelBulkley {
     fn shear_rate<L: Lane>(&self, rho: L, q: L) -> L {
         let excess = q - L::splat(self.sigma0);
         let yielded = L::zero().less(excess);
+        if !L::any(yielded) {
+            return L::zero();
+        }
         let safe = L::select(yielded, excess, L::one());
         let gamma_dot = two_power_root(self.k, self.ln_k, self.n, rho * L::splat(1.0 / 6.0), safe);
         L::select(yielded, gamma_dot, L::zero())

@@ -54,6 +54,11 @@ impl StopReport {
             Runaway::NoDensity { density } => {
                 format!("density of {density:.4} times the reference density, which is not > 0")
             }
+            Runaway::Ledger { residual, bound } => {
+                format!(
+                    "mass changed by {residual:.3e} of the whole in one step; rounding allows {bound:.1e}"
+                )
+            }
             Runaway::TooFast { speed, limit } => format!(
                 "{:.4e} m/s, {speed:.3} cells per step; the limit is {limit}",
                 units.velocity_to_si(speed)
@@ -75,7 +80,9 @@ impl StopReport {
 /// The likeliest cause, by what the plan already knew.
 fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
     let numbers = &plan.numbers;
-    if stopped.tau < 0.55 {
+    if matches!(stopped.what, Runaway::Ledger { .. }) {
+        "a defect of the solver; please report the scene"
+    } else if stopped.tau < 0.55 {
         "the relaxation time is near ½, where waves grow [K5]; a finer `domain.spacing_m` or a larger viscosity"
     } else if stopped.tau.is_finite()
         && stopped.tau > 3.0

@@ -21,10 +21,29 @@ pub fn check(setup: &Setup) -> Result<(), StartError> {
         if (faces[0] == Face::Periodic) != (faces[1] == Face::Periodic) {
             return Err(StartError::HalfPeriodic { axis });
         }
+        if faces.contains(&Face::Open) && setup.free_surface.is_none() {
+            return Err(StartError::OpenWithoutSurface { axis });
+        }
     }
     table(setup, "solids", &setup.solids, "solid_motion", setup.solid_motion.len() + 1)?;
     table(setup, "fluid_of_cell", &setup.fluid_of_cell, "fluids", setup.fluids.len())?;
     if !setup.solids.is_empty() && setup.solids.iter().all(|&s| s != 0) {
+        return Err(StartError::NoFluid);
+    }
+    surface(setup)
+}
+
+/// Fill of a free surface: one entry per cell, 0 to 1, some fluid.
+fn surface(setup: &Setup) -> Result<(), StartError> {
+    let Some(surface) = &setup.free_surface else { return Ok(()) };
+    let expected = setup.cells();
+    if surface.fill.len() != expected {
+        return Err(StartError::Length { field: "fill", found: surface.fill.len(), expected });
+    }
+    if let Some(cell) = surface.fill.iter().position(|fill| !(0.0..=1.0).contains(fill)) {
+        return Err(StartError::Fill { cell, found: surface.fill[cell] });
+    }
+    if (0..expected).all(|cell| setup.is_solid(cell) || surface.fill[cell] == 0.0) {
         return Err(StartError::NoFluid);
     }
     Ok(())

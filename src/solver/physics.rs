@@ -7,6 +7,7 @@
 use super::setup::YieldTreatment;
 use crate::boundary::{bounce_back, wall_slip};
 use crate::collision::Collision;
+use crate::free_surface::{Kind, exchange};
 use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::moments::{self, Moments};
@@ -45,6 +46,46 @@ pub trait Physics: Clone + Send + Sync + 'static {
     #[inline(always)]
     fn wall<L: Lane>(&self, out: L, i: usize, rho: L, u_wall: &[L; 3]) -> L {
         bounce_back::bounce_back(out, i, rho, u_wall)
+    }
+
+    /// A: wetted share of a link \[F1\]. `masses`: m of the two cells, for the wrong form that uses them.
+    #[inline(always)]
+    fn wetted_share(&self, neighbour: Kind, fill: f64, neighbour_fill: f64, masses: [f64; 2]) -> f64 {
+        let _ = masses;
+        exchange::wetted_share(neighbour, fill, neighbour_fill)
+    }
+
+    /// Δm of one link \[F1\]. `before`: the two populations before collision, for the wrong form that
+    /// uses them.
+    #[inline(always)]
+    fn link_mass(&self, share: f64, arriving: f64, leaving: f64, before: [f64; 2]) -> f64 {
+        let _ = before;
+        exchange::link_mass(share, arriving, leaving)
+    }
+
+    /// Population that the gas sends back along −c_i \[F2\]. `behind`: what the cell at x − c_i sends
+    /// along c_i, for the wrong form that reconstructs there.
+    #[inline(always)]
+    fn gas_link(&self, leaving: f64, i: usize, u: &[f64; 3], behind: f64) -> f64 {
+        let _ = behind;
+        exchange::gas_link(leaving, i, u)
+    }
+
+    /// Whether [`Physics::link_mass`] reads populations before collision; no right physics does.
+    fn wants_before(&self) -> bool {
+        false
+    }
+
+    /// Whether this is a wrong form on trial: its mass ledger may not close, and the claim that must
+    /// catch it measures by how much.
+    fn is_mutant(&self) -> bool {
+        false
+    }
+
+    /// What becomes of the mass e that a conversion leaves over \[F4\].
+    #[inline(always)]
+    fn excess(&self, e: f64) -> f64 {
+        e
     }
 
     /// 1/(dσ/dγ̇) of a cell, zero where rigid \[B3\].

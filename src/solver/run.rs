@@ -41,8 +41,19 @@ pub trait Run {
     /// Hash and digest of the complete state.
     fn fingerprint(&self) -> Fingerprint;
 
-    /// Number of fluid cells: lattice-site updates per step.
+    /// Number of fluid cells now: lattice-site updates per step. With a free surface it changes.
     fn fluid_cells(&self) -> u64;
+
+    /// The ledger of a free-surface run \[F5\]; `None` without a free surface.
+    fn ledger(&self) -> Option<Ledger> {
+        None
+    }
+
+    /// Loads on the numbered solids, in the order of [`Setup::solid_motion`]; empty unless
+    /// [`Setup::loads`].
+    fn loads(&self) -> Vec<Load> {
+        Vec::new()
+    }
 
     /// Bytes held by this run's arrays.
     fn allocated_bytes(&self) -> u64;
@@ -59,7 +70,58 @@ pub struct Totals {
     pub kinetic_energy: f64,
 }
 
-/// Macroscopic fields in lattice units, one entry per cell, x fastest. Solid cells: ρ = 1, rest zero.
+/// Where the mass and momentum of a free-surface flow are and where they went \[F5\]. Lattice units;
+/// masses are sums of ρ over liquid cells and of m over interface cells.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Mass at step 0.
+    pub initial_mass: f64,
+    /// Mass now, with `parked`.
+    pub mass: f64,
+    /// Excess that has no receiver at the moment.
+    pub parked: f64,
+    /// Mass that left through open faces.
+    pub outflow: f64,
+    /// Mass that came in at moving walls (rounding, or a wall that moves along its normal).
+    pub from_walls: f64,
+    /// (mass + outflow − from_walls − initial)/initial.
+    pub mass_residual: f64,
+    /// Momentum Σ c f of all fluid cells now, populations f − w.
+    pub momentum: [f64; 3],
+    /// What the body force brought in so far.
+    pub from_force: [f64; 3],
+    /// What walls and mirror planes of the box brought in so far.
+    pub from_faces: [f64; 3],
+    /// What solids brought in so far.
+    pub from_solids: [f64; 3],
+    /// What the gas brought in so far, through reconstructed populations \[F2\] and open faces.
+    pub from_gas: [f64; 3],
+    /// What cells brought in by becoming fluid, less what they took by becoming gas.
+    pub from_conversions: [f64; 3],
+    /// Largest component of momentum − Σ of the above, absolute.
+    pub momentum_residual: f64,
+    /// Liquid cells now.
+    pub liquid_cells: u64,
+    /// Interface cells now.
+    pub interface_cells: u64,
+    /// Cells that changed kind so far.
+    pub conversions: u64,
+}
+
+/// Load of the fluid on one solid \[C7\], lattice units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Load {
+    /// Force during the last step.
+    pub force: [f64; 3],
+    /// Sum of the force over all steps.
+    pub impulse: [f64; 3],
+    /// Wetted area by face: `wetted[axis][0]` is the area whose fluid lies on the low side of the solid.
+    /// Partly filled cells count with their fill.
+    pub wetted: [[f64; 2]; 3],
+}
+
+/// Macroscopic fields in lattice units, one entry per cell, x fastest. Solid and gas cells: ρ = 1, rest
+/// zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fields {
     /// Density ρ.
@@ -72,6 +134,20 @@ pub struct Fields {
     pub shear_rate: Vec<f64>,
     /// Even relaxation rate ω⁺ = 1/τ; 0 in an unyielded cell.
     pub omega: Vec<f64>,
+    /// Fill φ: 1 in liquid, 0 in gas and solid, m/ρ in between (may leave 0..1 by the margin ε). Empty
+    /// without a free surface.
+    pub fill: Vec<f64>,
+    /// Kind of each cell, [`crate::free_surface::Kind`] as a number: 0 gas, 1 interface, 2 liquid, 3
+    /// solid. Empty without a free surface.
+    pub kind: Vec<u8>,
+}
+
+impl Fields {
+    /// Whether a cell holds fluid; `solid`: whether it is solid.
+    #[must_use]
+    pub fn is_fluid(&self, cell: usize, solid: bool) -> bool {
+        !solid && self.kind.get(cell).is_none_or(|&kind| kind == 1 || kind == 2)
+    }
 }
 
 /// Why a run could not start.
@@ -97,6 +173,12 @@ pub enum StartError {
     /// Nothing to compute.
     #[error("the box has no fluid cell")]
     NoFluid,
+    /// A fill outside 0..1.
+    #[error("cell {cell} has a fill of {found}; allowed: 0 to 1")]
+    Fill { cell: usize, found: f64 },
+    /// An open face without a free surface.
+    #[error("axis {axis}: an open face needs a free surface")]
+    OpenWithoutSurface { axis: char },
     /// More cells than this build can index.
     #[error("{cells} cells are more than the {max} this solver can index")]
     TooManyCells { cells: u128, max: u64 },
@@ -118,6 +200,13 @@ pub struct Stopped {
 /// The ways a cell fails the guard.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Runaway {
+    /// The mass ledger does not close within rounding \[F5\]; the cell is the one that exchanged most.
+    Ledger {
+        /// Mass gained or lost in this step, relative to the whole.
+        residual: f64,
+        /// The rounding bound it exceeds.
+        bound: f64,
+    },
     /// Density or velocity is not a finite number.
     NotFinite,
     /// Density is zero or negative.

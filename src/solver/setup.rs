@@ -20,6 +20,9 @@ pub enum Face {
     Moving([f64; 3]),
     /// Mirror plane \[B2\], half a cell outside the first cell centre.
     FreeSlip,
+    /// Open to gas at reference pressure: fluid leaves and is debited from the ledger \[F5\]; nothing
+    /// comes in. Only with a free surface.
+    Open,
 }
 
 /// Rigid motion of a solid that stays where it is on the grid: its surface
@@ -79,6 +82,71 @@ pub struct FlowPoint {
 /// Initial flow as a function of the cell index; `None` in [`Setup`] means rest at density 1.
 pub type InitialFlow = Arc<dyn Fn([usize; 3]) -> FlowPoint + Send + Sync>;
 
+/// How the body force acts in interface cells \[F3\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SurfaceForce {
+    /// F, as in the bulk.
+    Full,
+    /// φF: exact hydrostatics at any fill level.
+    #[default]
+    ByFill,
+    /// φF + (1 − φ) times the smoothed acceleration of the liquid neighbours, at most |F|: for flows
+    /// that fall freely.
+    ByFillAndInertia,
+}
+
+/// What a cell that becomes interface starts from \[F4\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Refill {
+    /// Equilibrium at the mean density and velocity of its fluid neighbours.
+    #[default]
+    Equilibrium,
+    /// The same with the mean non-equilibrium part of those neighbours.
+    WithStress,
+}
+
+/// Which neighbours take the mass that a conversion leaves over \[F4\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ExcessRule {
+    /// All interface neighbours in equal parts.
+    #[default]
+    Even,
+    /// Interface neighbours in proportion to how far they lie along the surface normal.
+    AlongNormal,
+}
+
+/// A mass-tracking free surface \[F1\]–\[F6\].
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeSurface {
+    /// Initial fill φ of every cell, 0 to 1; entries of solid cells are ignored.
+    pub fill: Arc<[f64]>,
+    /// How the body force acts in interface cells.
+    pub force: SurfaceForce,
+    /// What new interface cells start from.
+    pub refill: Refill,
+    /// Where excess mass goes.
+    pub excess: ExcessRule,
+    /// ε: a cell fills above (1 + ε)ρ and empties below −ερ.
+    pub margin: f64,
+    /// η: a cell without gas neighbour fills above (1 − η)ρ, one without liquid neighbour empties below ηρ.
+    pub lonely_margin: f64,
+}
+
+impl FreeSurface {
+    /// The default rules for a given initial fill.
+    #[must_use]
+    pub fn new(fill: Vec<f64>) -> Self {
+        Self {
+            fill: fill.into(),
+            force: SurfaceForce::default(),
+            refill: Refill::default(),
+            excess: ExcessRule::default(),
+            margin: 1e-2,
+            lonely_margin: 0.1,
+        }
+    }
+}
+
 /// One flow in lattice units.
 #[derive(Clone)]
 pub struct Setup {
@@ -106,6 +174,10 @@ pub struct Setup {
     pub force: BodyForce,
     /// Initial flow; `None` is rest at density 1.
     pub initial: Option<InitialFlow>,
+    /// The free surface; `None`: fluid fills every cell that is not solid.
+    pub free_surface: Option<FreeSurface>,
+    /// Whether the force on every numbered solid is recorded \[C7\].
+    pub loads: bool,
     /// A run stops when a cell is faster than this (lattice units) or not finite.
     pub speed_limit: f64,
     /// Worker threads; results do not depend on it.
@@ -129,6 +201,8 @@ impl Setup {
             stress_source: false,
             force: BodyForce::Constant([0.0; 3]),
             initial: None,
+            free_surface: None,
+            loads: false,
             speed_limit: 0.4,
             threads: 1,
         }

@@ -47,12 +47,19 @@ pub fn runaway(m: &Moments<f64>, limit: f64) -> Option<Runaway> {
     })
 }
 
-/// F − ∇p of a cell, the pressure from the densities around it \[B3\] \[K6\].
-pub fn residual_force(f: &[Cell], links: &Links, cell: usize, force: &[f64; 3]) -> [f64; 3] {
+/// F − ∇p of a cell, the pressure from the densities around it \[B3\] \[K6\]. `is_fluid(cell)`: whether a
+/// neighbour that is not solid has a density at all (gas has none).
+pub fn residual_force(
+    f: &[Cell],
+    links: &Links,
+    cell: usize,
+    force: &[f64; 3],
+    is_fluid: impl Fn(usize) -> bool,
+) -> [f64; 3] {
     let rho = |at: usize| density_excess(&f[at]);
     std::array::from_fn(|axis| {
-        let low = links.neighbour(cell, axis, false).map(rho);
-        let high = links.neighbour(cell, axis, true).map(rho);
+        let low = links.neighbour(cell, axis, false).filter(|&n| is_fluid(n)).map(rho);
+        let high = links.neighbour(cell, axis, true).filter(|&n| is_fluid(n)).map(rho);
         force[axis] - pressure_slope(low, rho(cell), high)
     })
 }
@@ -69,7 +76,7 @@ pub fn wall_correction<P: Physics>(
     fluid: u8,
     sourced: bool,
 ) -> Cell {
-    let is_wall = |i: usize| matches!(record.sources[opposite(i)], Source::Wall(_));
+    let is_wall = |i: usize| matches!(record.sources[opposite(i)], Source::Wall { .. });
     let rho = state.m.rho;
     let odd_omega = physics.odd_omega(state.omega);
     let fluidity = physics.tangent_fluidity(fluid, rho, state.omega, physics.stress_magnitude(&state.m));
@@ -120,6 +127,22 @@ pub fn gather<P: Physics>(
     }
 }
 
+/// What a wall sends back in direction `i` \[B1\] \[B3\]; `own`: post-collision populations of the cell.
+#[inline(always)]
+pub fn wall_link<P: Physics>(
+    physics: &P,
+    own: &Cell,
+    correction: Option<&Cell>,
+    i: usize,
+    rho: f64,
+    velocity: &[f64; 3],
+) -> f64 {
+    let out = opposite(i);
+    debug_assert_eq!(C[out][0], -C[i][0]);
+    let leaving = own[out] - correction.map_or(0.0, |c| c[out]);
+    physics.wall(leaving, out, rho, velocity)
+}
+
 /// Streaming into a cell that touches a wall, a solid or a mirror plane \[B1\]–\[B3\].
 #[inline(never)]
 fn gather_boundary<P: Physics>(
@@ -133,11 +156,8 @@ fn gather_boundary<P: Physics>(
     std::array::from_fn(|i| match record.sources[i] {
         Source::Cell { cell, direction } if i > 0 => post[cell as usize][usize::from(direction)],
         Source::Cell { .. } => own[0],
-        Source::Wall(u) => {
-            let out = opposite(i);
-            debug_assert_eq!(C[out][0], -C[i][0]);
-            let leaving = own[out] - correction.map_or(0.0, |c| c[out]);
-            physics.wall(leaving, out, rho, &u)
-        }
+        Source::Wall { velocity, .. } => wall_link(physics, own, correction, i, rho, &velocity),
+        // `check` refuses open faces without a free surface.
+        Source::Open => own[opposite(i)],
     })
 }

@@ -5,6 +5,7 @@
 
 mod cell;
 mod run;
+mod surface;
 
 use crate::collision::{Bgk, CentralMoment, CollisionChoice};
 use crate::rheology::{Bingham, HerschelBulkley, Law, Newtonian};
@@ -13,6 +14,7 @@ use crate::solver::run::{Backend, Run, StartError};
 use crate::solver::setup::{Setup, YieldTreatment};
 
 pub use run::PlainRun;
+pub use surface::SurfaceRun;
 
 /// The plain backend.
 #[derive(Clone, Copy, Debug, Default)]
@@ -63,5 +65,8 @@ fn shared_loop(setup: &Setup) -> Result<Box<dyn Run>, StartError> {
 }
 
 fn boxed<P: Physics>(setup: &Setup, physics: P) -> Result<Box<dyn Run>, StartError> {
-    Ok(Box::new(PlainRun::start(setup, physics)?))
+    match setup.free_surface {
+        Some(_) => surface::boxed(setup, physics),
+        None => Ok(Box::new(PlainRun::start(setup, physics)?)),
+    }
 }

@@ -98,7 +98,7 @@ impl<P: Physics> PlainRun<P> {
             let record = &self.links.boundary()[slot];
             if record.touches_wall {
                 let at = record.cell as usize;
-                let residual = cell::residual_force(&self.f, &self.links, at, force);
+                let residual = cell::residual_force(&self.f, &self.links, at, force, |_| true);
                 let fluid = self.setup.fluid_of_cell.get(at).copied().unwrap_or(0);
                 let state = self.state(at, force);
                 self.corrections[slot] = cell::wall_correction(
@@ -185,7 +185,7 @@ impl<P: Physics> PlainRun<P> {
             }
             *out = self.physics.collide(h, &state.m, state.omega);
             if self.setup.stress_source {
-                let residual = cell::residual_force(&self.f, &self.links, at, force);
+                let residual = cell::residual_force(&self.f, &self.links, at, force, |_| true);
                 cell::add_stress_source(&self.physics, out, &state, &residual);
             }
         }
@@ -226,7 +226,7 @@ impl<P: Physics> PlainRun<P> {
 const REST: FlowPoint = FlowPoint { density: 1.0, velocity: [0.0; 3], gradient: [[0.0; 3]; 3] };
 
 /// ω⁺ that the lagged treatment starts from: the law at the initial shear rate, clamped.
-fn starting_omega(setup: &Setup, cell: usize) -> f64 {
+pub(super) fn starting_omega(setup: &Setup, cell: usize) -> f64 {
     let YieldTreatment::LaggedClamped { tau_min, tau_max } = setup.yielding else { return 0.0 };
     let point = setup.initial.as_ref().map_or(REST, |flow| flow(setup.coordinates(cell)));
     let gamma_dot = initial::shear_rate(&initial::strain_rate(&point.gradient));
@@ -259,6 +259,8 @@ impl<P: Physics> Run for PlainRun<P> {
             stress: vec![[0.0; 6]; cells],
             shear_rate: vec![0.0; cells],
             omega: vec![0.0; cells],
+            fill: Vec::new(),
+            kind: Vec::new(),
         };
         let force = self.setup.force.at(self.step);
         for cell in self.fluid_cells_in_order() {

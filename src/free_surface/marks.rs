@@ -1,0 +1,75 @@
+//! When an interface cell fills or empties \[F4\] \[F6\].
+
+/// Verdict on an interface cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// Stays interface.
+    Stay,
+    /// Becomes liquid.
+    Fill,
+    /// Becomes gas.
+    Empty,
+}
+
+/// What an interface cell touches; walls and itself do not count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Touches {
+    /// A gas cell.
+    pub gas: bool,
+    /// A liquid cell.
+    pub liquid: bool,
+    /// Another interface cell.
+    pub interface: bool,
+}
+
+/// Fill if m > (1 + ε)ρ, or without gas neighbour if m > (1 − η)ρ. Empty if m < −ερ, or without liquid
+/// neighbour if m < ηρ, or without any fluid neighbour: such a cell would be accelerated by the
+/// populations it sends itself.
+///
+/// # Arguments
+/// `mass`: m. `rho`: ρ. `margin`: ε. `lonely`: η.
+/// # Source
+/// Design \[F4\], \[F6\]; ERRATA 25.
+/// # Verified by
+/// Claims `flat-layer-without-flicker`, `isolated-cell`.
+#[inline(always)]
+#[must_use]
+pub fn mark(mass: f64, rho: f64, touches: Touches, margin: f64, lonely: f64) -> Mark {
+    let alone = !touches.liquid && !touches.interface;
+    if alone {
+        return Mark::Empty;
+    }
+    if mass > (1.0 + margin) * rho || (!touches.gas && mass > (1.0 - lonely) * rho) {
+        Mark::Fill
+    } else if mass < -margin * rho || (!touches.liquid && mass < lonely * rho) {
+        Mark::Empty
+    } else {
+        Mark::Stay
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SURFACE: Touches = Touches { gas: true, liquid: true, interface: true };
+
+    #[test]
+    fn exact_margins() {
+        let judge = |mass| mark(mass, 1.0, SURFACE, 1e-2, 0.1);
+        assert_eq!(judge(1.01), Mark::Stay);
+        assert_eq!(judge(1.0101), Mark::Fill);
+        assert_eq!(judge(-0.01), Mark::Stay);
+        assert_eq!(judge(-0.0101), Mark::Empty);
+    }
+
+    #[test]
+    fn exact_lonely_cells() {
+        let bubble = Touches { gas: false, ..SURFACE };
+        assert_eq!(mark(0.91, 1.0, bubble, 1e-2, 0.1), Mark::Fill);
+        let film = Touches { liquid: false, ..SURFACE };
+        assert_eq!(mark(0.09, 1.0, film, 1e-2, 0.1), Mark::Empty);
+        let drop = Touches { gas: true, ..Touches::default() };
+        assert_eq!(mark(0.4, 1.0, drop, 1e-2, 0.1), Mark::Empty);
+    }
+}
