@@ -4,11 +4,12 @@ use serde::Serialize;
 
 use super::law::{self, apparent_viscosity, has_plug, plastic_viscosity};
 use super::memory::{Item, items};
-use super::scale::{Scales, norm};
+use super::scale::{Scales, extreme_forces, norm, total_force};
+use super::surface::Pool;
 use super::time_step::{StepRule, reference_viscosity};
 use crate::collision::CollisionChoice;
 use crate::scene::{Rheology, Scene};
-use crate::solver::setup::{BodyForce, Face, Setup, WallRule, YieldTreatment};
+use crate::solver::setup::{BodyForce, ExcessRule, Face, Setup, SurfaceForce, WallRule, YieldTreatment};
 use crate::stability::max_stable_speed;
 use crate::units::Units;
 
@@ -41,6 +42,15 @@ pub struct Numbers {
     pub spacing_m: f64,
     /// Widest gap between walls, cells; infinite without walls.
     pub gap_cells: f64,
+    /// Cells of air at time 0; `null` without a free surface.
+    pub gas_cells: Option<u64>,
+    /// Greatest depth of the fluid at time 0, cells; `null` without a free surface.
+    pub depth_cells: Option<f64>,
+    /// Volume of the fluid at time 0, m³; `null` without a free surface.
+    pub volume_m3: Option<f64>,
+    /// Thickness at which the fluid stops on this slope, σ0/(f along the bed), m; `null` without a yield
+    /// stress, a slope, or a free surface.
+    pub arrest_thickness_m: Option<f64>,
     /// Time step, s.
     pub time_step_s: f64,
     /// What fixed the time step.
@@ -103,11 +113,13 @@ pub(super) struct Given<'a> {
     pub steps: u64,
     pub gap: f64,
     pub fluid_cells: u64,
+    pub pool: Option<Pool>,
 }
 
 pub(super) fn numbers(given: &Given) -> Numbers {
     let Given { scene, units, setup, scales, .. } = *given;
     let cells = setup.extents.iter().map(|&n| n as u64).product::<u64>();
+    let solid_cells = setup.solids.iter().filter(|&&s| s != 0).count() as u64;
     let p = law::parameters(&scene.fluid.rheology);
     let (u, length) = (scales.velocity, scales.length);
     let speed_lattice = units.velocity_to_lattice(u);
@@ -125,9 +137,13 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         title: scene.title.clone().unwrap_or_else(|| scene.file.clone()),
         extents: setup.extents,
         fluid_cells: given.fluid_cells,
-        solid_cells: cells - given.fluid_cells,
+        solid_cells,
         spacing_m: units.dx_m,
         gap_cells: given.gap,
+        gas_cells: given.pool.map(|_| cells - solid_cells - given.fluid_cells),
+        depth_cells: given.pool.map(|pool| units.length_to_lattice(pool.depth)),
+        volume_m3: given.pool.map(|pool| pool.volume),
+        arrest_thickness_m: arrest_thickness(given),
         time_step_s: units.dt_s,
         time_step_rule: given.rule,
         end_time_s: scene.stop.end_time_s,
@@ -155,7 +171,34 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         warnings: Vec::new(),
     };
     numbers.warnings = warnings(&numbers, scene, setup);
+    numbers.warnings.extend(surface_warnings(&numbers));
     numbers
+}
+
+/// σ0 over the force along the bed: a layer of this thickness on the slope is on the point of yielding.
+fn arrest_thickness(given: &Given) -> Option<f64> {
+    let pool = given.pool?;
+    let law = &given.scene.fluid.rheology;
+    let mut force = extreme_forces(&total_force(given.scene))[0];
+    force[pool.up.index()] = 0.0;
+    (has_plug(law) && norm(force) > 0.0).then(|| law::parameters(law).sigma0 / norm(force))
+}
+
+fn surface_warnings(n: &Numbers) -> Vec<String> {
+    let Some(depth) = n.depth_cells else { return Vec::new() };
+    let mut warnings = Vec::new();
+    if depth < 4.0 {
+        warnings.push(format!(
+            "the fluid is at most {depth:.1} cells deep at time 0: a film of less than 4 cells is off by several per cent"
+        ));
+    }
+    match n.arrest_thickness_m.map(|thickness| thickness / n.spacing_m) {
+        Some(cells) if cells < 4.0 => warnings.push(format!(
+            "the fluid comes to rest {cells:.1} cells thick on this slope; below 4 cells the deposit is not resolved"
+        )),
+        _ => {}
+    }
+    warnings
 }
 
 fn operator(collision: &CollisionChoice) -> &'static str {
@@ -246,7 +289,8 @@ fn passes(scene: &Scene, setup: &Setup) -> Vec<Need> {
         BodyForce::Oscillating { .. } | BodyForce::Stepped { .. } => true,
     };
     let walls = setup.faces.iter().flatten().any(|face| *face != Face::Periodic);
-    vec![
+    let mut needs = surface_passes(setup);
+    needs.extend(vec![
         if constant {
             need("shear-rate solve", false, "all fluids are Newtonian: one relaxation time each")
         } else {
@@ -292,6 +336,40 @@ fn passes(scene: &Scene, setup: &Setup) -> Vec<Need> {
         } else {
             need("steadiness check", false, "runs to the end time")
         },
+    ]);
+    if scene.stop.arrested.is_some() {
+        needs.push(need("check for rest", true, "`stop.arrested` was given"));
+    }
+    needs
+}
+
+fn surface_passes(setup: &Setup) -> Vec<Need> {
+    let need = |pass, needed, because| Need { pass, needed, because };
+    let Some(surface) = &setup.free_surface else {
+        return vec![need("free surface", false, "fluid fills the box: no mass, fill or conversion passes")];
+    };
+    vec![
+        need(
+            "mass exchange and conversions",
+            true,
+            "`fluid.initial` leaves room for a free surface [F1] [F4]",
+        ),
+        need("ledger", true, "mass and momentum are booked in every step [F5]"),
+        if surface.force == SurfaceForce::ByFillAndInertia {
+            need("acceleration in surface cells", true, "`by_fill_and_inertia` was chosen [F3]")
+        } else {
+            need("acceleration in surface cells", false, "only for `by_fill_and_inertia` [F3]")
+        },
+        if surface.excess == ExcessRule::AlongNormal {
+            need("normals of the surface", true, "`along_normal` was chosen [F4]")
+        } else {
+            need("normals of the surface", false, "excess mass is shared evenly [F4]")
+        },
+        if setup.loads {
+            need("loads on solids", true, "a `force` probe asks for them [C7]")
+        } else {
+            need("loads on solids", false, "no `force` probe")
+        },
     ]
 }
 
@@ -317,7 +395,10 @@ fn warnings(n: &Numbers, scene: &Scene, setup: &Setup) -> Vec<String> {
         n.tau_plastic > 2.0,
         format!("plastic relaxation time {:.2} is above 2: transients are smeared over steps", n.tau_plastic),
     );
-    warn(n.gap_cells < 8.0, format!("only {} cells between walls: errors of several per cent", n.gap_cells));
+    warn(
+        n.gap_cells < 8.0 && n.depth_cells.is_none(),
+        format!("only {} cells between walls: errors of several per cent", n.gap_cells),
+    );
     warn(
         n.stability_margin.is_some_and(|margin| margin < 2.0),
         "less than a factor of 2 below the von Neumann limit".to_owned(),

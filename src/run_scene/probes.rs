@@ -42,6 +42,7 @@ pub(super) fn columns(probe: &Probe) -> Vec<(String, &'static str)> {
         Measure::Mass => one("kg"),
         Measure::PlugFraction => one("-"),
         Measure::FlowRate { .. } => one("m^3/s"),
+        _ => Vec::new(),
     }
 }
 
@@ -71,6 +72,7 @@ pub(super) fn values(measure: &Measure, run: &dyn Run, fields: &Fields, units: &
             let sum: f64 = cells.map(|c| fields.velocity[c][normal.index()]).sum();
             vec![units.velocity_to_si(sum) * units.dx_m * units.dx_m]
         }
+        _ => Vec::new(),
     }
 }
 

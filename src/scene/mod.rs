@@ -10,15 +10,18 @@ mod parse;
 
 use std::path::Path;
 
+use crate::geometry::Axis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use domain::{Boundaries, Boundary, Domain, FACE_KEYS};
 pub use error::{Located, SceneError, SceneProblem};
-pub use fluid::{BodyForce, Fluid, Gravity, InitialVelocity, Layer, Rheology, Solid};
+pub use fluid::{
+    BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialVelocity, Layer, Rheology, Solid,
+};
 pub use numerics::{
-    Cadence, ClampLimits, Collision, Measure, Numerics, Operator, Output, Probe, Steady, Stop, WallChoice,
-    YieldChoice,
+    Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Measure, Numerics, Operator, Output, Probe,
+    RefillChoice, Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
 
 /// One experiment.
@@ -58,6 +61,23 @@ pub struct Scene {
     /// Name of the file it came from, for messages.
     #[serde(skip)]
     pub file: String,
+}
+
+impl Scene {
+    /// The axis along which gravity is strongest (z before y before x), normal to beds and levels;
+    /// `None` without gravity.
+    #[must_use]
+    pub fn up_axis(&self) -> Option<Axis> {
+        let gravity = self.gravity.filter(|gravity| gravity.magnitude_m_per_s2 > 0.0)?;
+        let pull = crate::plan::gravity_force(&gravity, 1.0);
+        let mut up = Axis::Z;
+        for axis in [Axis::Y, Axis::X] {
+            if pull[axis.index()].abs() > pull[up.index()].abs() {
+                up = axis;
+            }
+        }
+        Some(up)
+    }
 }
 
 /// Reads and checks a scene file.
