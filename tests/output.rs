@@ -96,6 +96,7 @@ fn exact_summary_round_trip() {
             momentum: [0.0; 3],
             max_speed: 0.1,
         },
+        free_surface: None,
         stopped: None,
     };
     let path = folder("summary.json");

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::cells::Cells;
 use super::scale::{closed_axes, total_force};
 use crate::free_surface::{Kind, hydrostatic};
-use crate::scene::{BodyForce, InitialVelocity, Scene};
+use crate::scene::{BodyForce, InitialPressure, InitialVelocity, Scene};
 use crate::solver::setup::{FlowPoint, InitialFlow};
 use crate::units::Units;
 
@@ -22,9 +22,12 @@ struct Wave {
 pub fn initial_flow(scene: &Scene, units: &Units, cells: &Cells, force: &[f64; 3]) -> Option<InitialFlow> {
     let extents = cells.extents;
     let flow = scene.fluid.initial_velocity;
-    if cells.pool.is_some() {
+    if let Some(initial) = &scene.fluid.initial {
+        let weightless = initial.pressure == InitialPressure::Uniform;
         // At rest the solver itself starts with the pressure that balances the weight.
-        return (flow != InitialVelocity::AtRest).then(|| flow_below_surface(flow, units, cells, force));
+        let own = weightless || flow != InitialVelocity::AtRest;
+        let force = if weightless { &[0.0; 3] } else { force };
+        return own.then(|| flow_below_surface(flow, units, cells, force));
     }
     let push = pressure_gradient(scene, units);
     if flow == InitialVelocity::AtRest && push == [0.0; 3] {

@@ -19,7 +19,7 @@ use std::fmt;
 pub use error::{PlanError, PlanProblem};
 pub use memory::available as available_memory;
 pub use numbers::{Need, Numbers};
-pub use scale::gravity_force;
+pub use scale::{extreme_forces, total_force};
 pub use time_step::StepRule;
 
 use crate::scene::Scene;

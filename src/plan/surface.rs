@@ -27,7 +27,7 @@ pub struct Pool {
 #[must_use]
 pub fn level_shape(scene: &Scene, level: &FillLevel) -> Shape {
     let axis = level.axis.or_else(|| scene.up_axis()).unwrap_or(Axis::Z);
-    let pull = scene.gravity.map_or(-1.0, |g| super::scale::gravity_force(&g, 1.0)[axis.index()]);
+    let pull = extreme_forces(&total_force(scene))[0][axis.index()];
     let (mut point_m, mut normal) = ([0.0; 3], [0.0; 3]);
     point_m[axis.index()] = level.height_m;
     normal[axis.index()] = if pull > 0.0 { -1.0 } else { 1.0 };

@@ -25,8 +25,7 @@ pub struct Fluid {
     pub initial: Option<InitialFluid>,
 }
 
-/// Where the fluid is at time 0: below the level or inside one of the shapes, and not inside a solid. It
-/// starts with the pressure that balances its weight.
+/// Where the fluid is at time 0: below the level or inside one of the shapes, and not inside a solid.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InitialFluid {
@@ -36,6 +35,20 @@ pub struct InitialFluid {
     /// Everything inside any of these.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shapes: Vec<FluidShape>,
+    /// Pressure at time 0.
+    #[serde(default)]
+    pub pressure: InitialPressure,
+}
+
+/// Pressure at time 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum InitialPressure {
+    /// That of the fluid at rest below its surface.
+    #[default]
+    Hydrostatic,
+    /// That of the air: for fluid that falls freely from the start.
+    Uniform,
 }
 
 /// Fluid up to a level.

@@ -10,14 +10,16 @@ mod parse;
 
 use std::path::Path;
 
-use crate::geometry::Axis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::geometry::Axis;
 
 pub use domain::{Boundaries, Boundary, Domain, FACE_KEYS};
 pub use error::{Located, SceneError, SceneProblem};
 pub use fluid::{
-    BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialVelocity, Layer, Rheology, Solid,
+    BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialPressure, InitialVelocity, Layer,
+    Rheology, Solid,
 };
 pub use numerics::{
     Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Measure, Numerics, Operator, Output, Probe,
@@ -64,19 +66,13 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The axis along which gravity is strongest (z before y before x), normal to beds and levels;
-    /// `None` without gravity.
+    /// The axis along which gravity and body force are strongest (z before y before x), normal to beds and
+    /// levels; `None` without a force.
     #[must_use]
     pub fn up_axis(&self) -> Option<Axis> {
-        let gravity = self.gravity.filter(|gravity| gravity.magnitude_m_per_s2 > 0.0)?;
-        let pull = crate::plan::gravity_force(&gravity, 1.0);
-        let mut up = Axis::Z;
-        for axis in [Axis::Y, Axis::X] {
-            if pull[axis.index()].abs() > pull[up.index()].abs() {
-                up = axis;
-            }
-        }
-        Some(up)
+        let force = crate::plan::extreme_forces(&crate::plan::total_force(self));
+        let pulls = force.iter().flatten().any(|f| *f != 0.0);
+        pulls.then(|| crate::plan::surface::up(self).0)
     }
 }
 

@@ -35,8 +35,7 @@ pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
 
 fn fill_level(at: &Checker, scene: &Scene, level: &FillLevel) -> Result<(), SceneError> {
     let path = "fluid.initial.fill_level";
-    let pulls = scene.gravity.is_some_and(|gravity| gravity.magnitude_m_per_s2 > 0.0);
-    at.ensure(level.axis.is_some() || pulls, path, || SceneProblem::LevelWithoutAxis)?;
+    at.ensure(level.axis.is_some() || scene.up_axis().is_some(), path, || SceneProblem::LevelWithoutAxis)?;
     if let Some(axis) = level.axis.or_else(|| scene.up_axis()) {
         at.position(&format!("{path}.height_m"), axis, level.height_m, scene.domain.size_m)?;
     }
