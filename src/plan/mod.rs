@@ -7,6 +7,7 @@ mod initial;
 pub mod law;
 mod lower;
 mod memory;
+mod needs;
 mod numbers;
 mod print;
 mod scale;
@@ -18,7 +19,8 @@ use std::fmt;
 
 pub use error::{PlanError, PlanProblem};
 pub use memory::available as available_memory;
-pub use numbers::{Need, Numbers};
+pub use needs::Need;
+pub use numbers::Numbers;
 pub use scale::{extreme_forces, total_force};
 pub use time_step::StepRule;
 

@@ -284,3 +284,21 @@ fn greatest(a: f64, b: f64) -> f64 {
 fn least(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_of_the_collapse_velocity() {
+        let (rho, g, h): (f64, f64, f64) = (1000.0, 9.81, 0.1);
+        let newtonian = |mu: f64| Rheology::Newtonian { viscosity_pa_s: mu };
+        let inviscid = collapse_velocity(&newtonian(1e-9), rho, rho * g, h);
+        assert!((inviscid / (2.0 * (g * h).sqrt()) - 1.0).abs() < 1e-6, "Ritter: {inviscid}");
+        // Inertia is ρU²/2 against 4μU/h: a share of 1e-7 for U = 5e-4 m/s.
+        let creeping = collapse_velocity(&newtonian(1e5), rho, rho * g, h);
+        assert!((creeping / (rho * g * h * h / 2e5) - 1.0).abs() < 1e-6, "film: {creeping}");
+        let stiff = Rheology::Bingham { yield_stress_pa: 1000.0, plastic_viscosity_pa_s: 1.0 };
+        assert_eq!(collapse_velocity(&stiff, rho, rho * g, h), 0.0, "2σ0 > 2ρgh: it stands");
+    }
+}

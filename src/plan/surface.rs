@@ -137,3 +137,40 @@ fn for_lines(axis: Axis, extents: [usize; 3], mut visit: impl FnMut(Box<dyn Iter
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::cells;
+
+    fn pool_of(text: &str) -> Pool {
+        let scene = crate::scene::from_json(text, "scene.json").unwrap_or_else(|error| panic!("{error}"));
+        cells::fill(&scene).pool.unwrap_or_else(|| panic!("no surface"))
+    }
+
+    /// A reservoir of 0.03 m² in one row of cells 3 mm wide, cut along its slanted surface exactly.
+    #[test]
+    fn exact_reservoir_of_the_dam_break() {
+        let pool = pool_of(include_str!("../../scenes/show/dam_break_slope.json"));
+        // 5000 cells, one rounding of their fill each; corners have 7 decimals.
+        assert!((pool.volume - 9e-5).abs() < 1e-11, "{}", pool.volume);
+        assert!(!pool.level && pool.fall == 0.0 && pool.up == Axis::Z && pool.down_is_low);
+        // The column next to the gate: 0.1 + (0.2985 − 0.15) tan 16°.
+        assert!((pool.depth - 0.142_582).abs() < 1e-6, "{}", pool.depth);
+        assert_eq!(pool.runs[2], pool.depth);
+    }
+
+    #[test]
+    fn exact_film_is_level_and_drop_falls_to_the_floor() {
+        let film = pool_of(include_str!("../../scenes/verify/film_newtonian.json"));
+        assert!(film.level && film.fall == 0.0);
+        assert!((film.depth - 0.0205).abs() < 1e-15);
+        let drop = pool_of(include_str!("../../scenes/verify/falling_drop.json"));
+        assert!(!drop.level);
+        // From the lowest cell of the drop's outermost column, whose bottom is near its equator.
+        assert!((0.068..0.082).contains(&drop.fall), "{}", drop.fall);
+        // Area of the disc times the width; 100 cut cells, each off by at most 1/16 at random.
+        let exact = std::f64::consts::PI * 0.012 * 0.012 * 0.001;
+        assert!((drop.volume / exact - 1.0).abs() < 2e-3, "{}", drop.volume);
+    }
+}
