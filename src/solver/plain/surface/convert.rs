@@ -99,9 +99,9 @@ impl<P: Physics> SurfaceRun<P> {
     fn is_held(&self, cell: usize) -> bool {
         let firm = touch::LIQUID | touch::WALL;
         let through = |i| {
-            self.links.neighbour_along(cell, i).is_some_and(|n| {
-                n != cell && self.kinds[n] == Kind::Interface && self.touches[n] & firm != 0
-            })
+            self.links
+                .neighbour_along(cell, i)
+                .is_some_and(|n| n != cell && self.kinds[n] == Kind::Interface && self.touches[n] & firm != 0)
         };
         self.touches[cell] & firm != 0 || (1..Q).any(through)
     }

@@ -110,8 +110,16 @@ impl<P: Physics> SurfaceRun<P> {
             let residual = cell::residual_force(&self.f, &self.links, at, &force, fluid);
             let state = self.state(at, &force);
             let sourced = self.setup.stress_source;
-            self.corrections[slot] =
-                cell::wall_correction(&self.physics, record, &self.f[at], &state, &residual, 0, sourced);
+            self.corrections[slot] = cell::wall_correction(
+                &self.physics,
+                record,
+                &self.f[at],
+                &state,
+                &residual,
+                0,
+                sourced,
+                true,
+            );
         }
     }
 
