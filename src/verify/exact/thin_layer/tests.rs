@@ -60,11 +60,15 @@ fn compare_with_table<C: FlowCurve>(run: &str, law: C, mu_clamp: Option<f64>, dx
         for (threshold, field) in [(0.003, "xf_h3mm"), (0.0002, "xf_h0p2mm")] {
             let front = snapshot.front(threshold).unwrap();
             let error = front - entry.field(field).unwrap();
-            println!("{run} {mu_clamp:?} t={} {field}: {front:.5} {error:+.2e}", snapshot.time);
-            // Both on the same grid: 0.05 mm of rounding in the table, 0.02 mm of time stepping here
-            // and as much there; where the front meets the bed, whose edges the two average over
-            // cells differently, 0.4 mm.
-            let tolerance = if start.is_some() { 5e-4 } else { 2e-4 };
+            // Both on the same grid: 0.05 mm of rounding in the table and 0.02 mm of time stepping on
+            // either side. Where the front meets the bed, whose edges the two average over cells
+            // differently, 0.2 mm more; for the tip at 0.2 mm, thinner there than the difference in
+            // bed elevation of a cell, the 1 mm that the table states.
+            let tolerance = match (start, threshold == 0.003) {
+                (None, _) => 2e-4,
+                (Some(_), true) => 4e-4,
+                (Some(_), false) => 1e-3,
+            };
             assert!(error.abs() < tolerance, "{run} {mu_clamp:?} {}: {front} {error:e}", snapshot.time);
         }
     }
@@ -109,7 +113,6 @@ fn time_steps_leave_no_trace_in_the_front() {
     let usual = front(&layer);
     layer.tolerance = 1e-6;
     let fine = front(&layer);
-    println!("front {usual} {fine}");
     // The accuracy in time that the module states.
     assert!((usual - fine).abs() < 2e-5, "{usual} {fine}");
 }
@@ -191,34 +194,32 @@ fn huppert_error(geometry: Geometry, cells: usize) -> (f64, f64) {
 #[test]
 fn limit_newtonian_huppert_currents_on_horizontal_ground() {
     for geometry in [Geometry::Planar, Geometry::Axisymmetric] {
-        for cells in [50, 100, 200, 400] {
-            let (front, middle) = huppert_error(geometry, cells);
-            println!("{geometry:?} {cells}: front {front:+.2e} middle {middle:+.2e}");
-        }
+        let (coarse, fine) = (huppert_error(geometry, 100), huppert_error(geometry, 200));
+        // Measured ladder, both geometries: the front lags by 3.8e-3, 1.7e-3, 6.7e-4 at 100, 200, 400
+        // cells (order 1.2, as h is singular there) and the middle is 8.5e-4, 3.5e-4, 1.4e-4 high.
+        assert!(fine.0.abs() < 2e-3 && fine.1.abs() < 4e-4, "{geometry:?} {fine:?}");
+        assert!(fine.0.abs() < 0.55 * coarse.0.abs(), "{geometry:?} {coarse:?} {fine:?}");
+        assert!(fine.1.abs() < 0.55 * coarse.1.abs(), "{geometry:?} {coarse:?} {fine:?}");
     }
 }
 
 #[test]
 fn limit_newtonian_huppert_current_on_a_slope() {
-    for mu in [35.0, 10.0] {
-        let dx = 0.02;
-        let current =
-            SlopeCurrent { area: 0.03, gravity: 9.81, slope: 16.0 * DEGREE, viscosity: mu / 997.45 };
-        let cells = (1.3 * current.front(500.0) / dx) as usize;
-        let surface = reservoir(16.0 * DEGREE, 0.03, 0.3, dx, cells).unwrap();
-        let layer = on_slope(Law::Newtonian { mu }, 16.0, dx, vec![0.0; cells]);
-        let history = layer.run(&surface, &[10.0, 100.0, 500.0]).unwrap();
-        for s in &history.snapshots {
-            let deepest = s.h.iter().fold(0.0_f64, |a, &b| a.max(b));
-            println!(
-                "mu {mu} t {} ratio 3mm {:.4} .2mm {:.4} half {:.4} steps {}",
-                s.time,
-                s.front(0.003).unwrap_or(0.0) / current.front(s.time),
-                s.front(0.0002).unwrap() / current.front(s.time),
-                s.front(0.5 * deepest).unwrap() / current.front(s.time),
-                history.steps
-            );
-        }
+    let dx = 0.01;
+    let current = SlopeCurrent { area: 0.03, gravity: 9.81, slope: 16.0 * DEGREE, viscosity: 10.0 / 997.45 };
+    let cells = (1.1 * current.front(500.0) / dx) as usize;
+    let surface = reservoir(16.0 * DEGREE, 0.03, 0.3, dx, cells).unwrap();
+    let mut layer = on_slope(Law::Newtonian { mu: 10.0 }, 16.0, dx, vec![0.0; cells]);
+    layer.tolerance = 1e-3;
+    let history = layer.run(&surface, &[10.0, 100.0, 500.0]).unwrap();
+    let mut last = 0.0;
+    for (snapshot, expected) in history.snapshots.iter().zip([0.966, 0.989, 0.995]) {
+        let ratio = snapshot.front(0.003).unwrap() / current.front(snapshot.time);
+        // Its threshold, depth and viscosity are not on record: the ratios of the independent solver
+        // are met to 2e-3, of which the position of the front inside a cell is up to 1e-3.
+        assert!((ratio - expected).abs() < 2e-3, "{} {ratio}", snapshot.time);
+        assert!(ratio > last && ratio < 1.0);
+        last = ratio;
     }
 }
 
@@ -226,35 +227,34 @@ fn limit_newtonian_huppert_current_on_a_slope() {
 fn limit_bingham_slump_tends_to_the_rest_shape() {
     let law = Law::Bingham { sigma0: 50.0, mu: 1.0 };
     let rest = SpreadRest::round(50.0, 2000.0, 9.81, 1e-3).unwrap();
-    for cells in [100, 200] {
-        let dx = 1.3 * rest.edge() / cells as f64;
-        let start =
-            cell_averages(|r| if r < 0.07 { 1.0 } else { 0.0 }, Geometry::Axisymmetric, dx, cells, 1e-3)
-                .unwrap();
-        let layer = ThinLayer {
-            law,
-            density: 2000.0,
-            gravity: 9.81,
-            slope: 0.0,
-            geometry: Geometry::Axisymmetric,
-            dx,
-            bed: vec![0.0; cells],
-            tolerance: 1e-4,
-        };
-        let history = layer.run(&start, &[0.1, 1.0, 10.0, 100.0, 1000.0]).unwrap();
-        for s in &history.snapshots {
-            let worst = s.x.iter().zip(&s.h).fold(0.0_f64, |a, (&x, &h)| a.max((h - rest.height(x)).abs()));
-            println!(
-                "slump {cells} t {} worst {:.3e} of h0, h0 {:+.2e} edge(1/10) {:+.3e} steps {} V {:e}",
-                s.time,
-                worst / rest.height(0.0),
-                s.h[0] / rest.height(0.5 * dx) - 1.0,
-                s.front(0.1 * rest.height(0.0)).unwrap() / (0.99 * rest.edge()) - 1.0,
-                history.steps,
-                s.volume / 1e-3 - 1.0
-            );
-        }
+    let cells = 100;
+    let dx = 1.3 * rest.edge() / cells as f64;
+    let cylinder = |r| if r < 0.07 { 1.0 } else { 0.0 };
+    let start = cell_averages(cylinder, Geometry::Axisymmetric, dx, cells, 1e-3).unwrap();
+    let layer = ThinLayer {
+        law,
+        density: 2000.0,
+        gravity: 9.81,
+        slope: 0.0,
+        geometry: Geometry::Axisymmetric,
+        dx,
+        bed: vec![0.0; cells],
+        tolerance: 1e-4,
+    };
+    let history = layer.run(&start, &[1.0, 10.0, 100.0]).unwrap();
+    // Largest |h − h_rest| over the middle height, measured 0.100, 0.016, 0.0025: it falls like 1/t
+    // (Matson & Hogg 2007 for n = 1) to the grid's 1.4e-3 in the last wet cell. Margin: a fifth.
+    for (snapshot, bound) in history.snapshots.iter().zip([0.12, 0.02, 0.003]) {
+        let error = |(&x, &h): (&f64, &f64)| (h - rest.height(x)).abs() / rest.height(0.0);
+        let worst = snapshot.x.iter().zip(&snapshot.h).map(error).fold(0.0, f64::max);
+        assert!(worst < bound, "{} {worst}", snapshot.time);
+        // Rounding once per cell and step.
+        assert!((snapshot.volume / 1e-3 - 1.0).abs() < 1e-13);
     }
+    // A tenth of the middle height is reached at 0.99 R; a tenth of Δx = 0.013 R is the grid's error
+    // of an interpolated front.
+    let edge = history.snapshots[2].front(0.1 * rest.height(0.0)).unwrap() / (0.99 * rest.edge());
+    assert!((edge - 1.0).abs() < 2e-3, "{edge}");
 }
 
 #[test]
@@ -273,12 +273,12 @@ fn exact_rest_below_yield() {
     let layer = on_slope(THESIS, 16.0, dx, vec![0.0; cells]);
     assert_eq!(layer.run(&surface, &[60.0]).unwrap().snapshots[0].h, surface);
     // Without yield stress a pool with horizontal surface rests: G vanishes up to rounding.
-    let pool = reservoir(16.0 * DEGREE, 0.03, 0.5, dx, cells).unwrap();
+    let pool = reservoir(16.0 * DEGREE, 0.05, 0.5, dx, cells).unwrap();
     let newtonian = on_slope(Law::Newtonian { mu: 1.0 }, 16.0, dx, vec![0.0; cells]);
     let end = newtonian.run(&pool, &[10.0]).unwrap();
     let moved = end.snapshots[0].h.iter().zip(&pool).fold(0.0_f64, |a, (x, y)| a.max((x - y).abs()));
-    // G is 1e-13 of ρ g after the division by Δx; over 10 s that moves less than 1e-13 m.
-    assert!(moved < 1e-12, "{moved}");
+    // A stage counts as solved at 1e-11 of the volume, 0.05 m², which one cell of 0.0025 m could hold.
+    assert!(moved < 2e-10, "{moved}");
 }
 
 #[test]
@@ -303,7 +303,8 @@ fn reservoir_has_its_volume_and_a_horizontal_surface() {
         let volume: f64 = h.iter().sum::<f64>() * 0.005;
         // Rounding of 200 terms.
         assert!((volume / 0.03 - 1.0).abs() < 1e-13, "{theta} {length} {volume}");
-        let rise = (h[20] - h[19]) / 0.005;
+        let last = (length / 0.005) as usize - 2;
+        let rise = (h[last] - h[last - 1]) / 0.005;
         assert!((rise - libm::tan(theta * DEGREE)).abs() < 1e-12, "{theta} {length} {rise}");
     }
     assert_eq!(reservoir(24.0 * DEGREE, 0.03, 0.5, 0.005, 200).unwrap()[0], 0.0);
