@@ -49,7 +49,7 @@ impl Ritter {
 /// of the plane of symmetry. Axisymmetric: r_N = η (g V³/(3 ν))^{1/8} t^{1/8}, V the whole volume.
 ///
 /// # Source
-/// Huppert 1982, J. Fluid Mech. 121, 43-58, Eq 2.17-2.27.
+/// Huppert 1982, J. Fluid Mech. 121, 43-58.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViscousCurrent {
     /// Planar or axisymmetric.

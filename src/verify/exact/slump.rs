@@ -26,7 +26,7 @@ fn log_tail(r: f64, first: i32) -> f64 {
 /// inwards, depths normal to it.
 ///
 /// # Source
-/// Liu & Mei 1989, J. Fluid Mech. 207, 505-529, Eq 3.5-3.7; the uphill end by the same balance
+/// Liu & Mei 1989, J. Fluid Mech. 207, 505-529; the uphill end by the same balance
 /// with the stress reversed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InclineRest {

@@ -28,7 +28,7 @@
 //! out (inertia, steep fronts, the rear wall, corners of the bed) is not in these numbers.
 //!
 //! # Source
-//! 004 Eq 5.1-5.3 after Bates & Ancey 2017, J. Non-Newtonian Fluid Mech. 243, 27-37; the stress
+//! 004 Eq 5.1-5.3 after Bates & Ancey 2017, J. Non-Newtonian Fluid Mech. 243, 64-78; the stress
 //! balance is that of Liu & Mei 1989, J. Fluid Mech. 207, 505-529.
 
 use super::ExactError;
