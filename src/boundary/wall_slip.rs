@@ -23,6 +23,29 @@ pub fn curvature_velocity<L: Lane>(tangential: &[L; 3], tangent_fluidity: L) -> 
     tangential.map(|f| f * (L::splat(1.0 / 8.0) * tangent_fluidity))
 }
 
+/// The curvature velocity, at most γ̇/4 in magnitude.
+///
+/// γ̇/2 is what the profile gains over the half cell by its slope alone; a curvature that takes back more
+/// than half of that belongs to a sheared layer thinner than 3/(4n) cells, or is no curvature at all: where
+/// a front collapses F − ∇p is mostly inertia, and a shear-thinning fluid would turn it into a wall that
+/// drives the flow.
+///
+/// # Arguments
+/// `velocity`: see [`curvature_velocity`]. `gamma_dot`: shear rate of the cell.
+/// # Source
+/// Design \[B3\], for flows with a free surface.
+/// # Verified by
+/// Test `limit_of_curvature`; claims `thesis-run-*` (without it they blow up within 130 steps).
+#[inline(always)]
+pub fn limited_curvature<L: Lane>(velocity: &[L; 3], gamma_dot: L) -> [L; 3] {
+    let squared = (velocity[0] * velocity[0] + velocity[1] * velocity[1]) + velocity[2] * velocity[2];
+    let speed = squared.sqrt();
+    let most = L::splat(0.25) * gamma_dot;
+    let excessive = most.less(speed);
+    let scale = L::select(excessive, most / L::select(excessive, speed, L::one()), L::one());
+    velocity.map(|v| v * scale)
+}
+
 /// How much of the curvature term the odd departure of the cell carries: min(3/(8(τ⁺ − ½)), 2(τ⁻ − ½)).
 ///
 /// In steady flow the departure measures the stress gradient, so that ω⁻ d (2(τ⁻ − ½) − 3/(8(τ⁺ − ½)))

@@ -11,20 +11,21 @@ pub enum Mark {
     Empty,
 }
 
-/// What an interface cell touches; walls and itself do not count.
+/// What an interface cell touches; itself does not count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Touches {
     /// A gas cell.
     pub gas: bool,
     /// A liquid cell.
     pub liquid: bool,
-    /// Another interface cell.
-    pub interface: bool,
+    /// A wall or solid, or an interface cell that touches liquid or a wall.
+    pub held: bool,
 }
 
 /// Fill if m > (1 + ε)ρ, or without gas neighbour if m > (1 − η)ρ. Empty if m < −ερ, or without liquid
-/// neighbour if m < ηρ, or without any fluid neighbour: such a cell would be accelerated by the
-/// populations it sends itself.
+/// neighbour if m < ηρ, or if neither liquid nor wall is within two links. Drops and threads that small
+/// cannot move: their mass has no filled neighbour to go to, and the force would accelerate them in place
+/// without bound.
 ///
 /// # Arguments
 /// `mass`: m. `rho`: ρ. `margin`: ε. `lonely`: η.
@@ -35,8 +36,7 @@ pub struct Touches {
 #[inline(always)]
 #[must_use]
 pub fn mark(mass: f64, rho: f64, touches: Touches, margin: f64, lonely: f64) -> Mark {
-    let alone = !touches.liquid && !touches.interface;
-    if alone {
+    if !touches.liquid && !touches.held {
         return Mark::Empty;
     }
     if mass > (1.0 + margin) * rho || (!touches.gas && mass > (1.0 - lonely) * rho) {
@@ -52,7 +52,7 @@ pub fn mark(mass: f64, rho: f64, touches: Touches, margin: f64, lonely: f64) -> 
 mod tests {
     use super::*;
 
-    const SURFACE: Touches = Touches { gas: true, liquid: true, interface: true };
+    const SURFACE: Touches = Touches { gas: true, liquid: true, held: true };
 
     #[test]
     fn exact_margins() {

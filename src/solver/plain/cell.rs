@@ -2,10 +2,11 @@
 
 use crate::boundary::links::{BoundaryCell, CellKind, Links, Source};
 use crate::boundary::wall_slip::{
-    link_correction, local_curvature, pressure_slope, stress_source, tangential,
+    limited_curvature, link_correction, local_curvature, pressure_slope, stress_source, tangential,
 };
 use crate::lattice::moments::{Moments, add_third, density_excess, deviator};
 use crate::lattice::{C, Q, opposite};
+use crate::rheology::relaxation::shear_rate_of_omega;
 use crate::solver::physics::Physics;
 use crate::solver::run::Runaway;
 
@@ -75,6 +76,7 @@ pub fn wall_correction<P: Physics>(
     residual: &[f64; 3],
     fluid: u8,
     sourced: bool,
+    limited: bool,
 ) -> Cell {
     let is_wall = |i: usize| matches!(record.sources[opposite(i)], Source::Wall { .. });
     let rho = state.m.rho;
@@ -92,7 +94,11 @@ pub fn wall_correction<P: Physics>(
     }
     let mut correction = link_correction(&excess, is_wall);
     let along = tangential(residual, &record.normal);
-    let curved = physics.curvature_velocity(&along, fluidity - 8.0 * local / rho);
+    let mut curved = physics.curvature_velocity(&along, fluidity - 8.0 * local / rho);
+    if limited {
+        let gamma_dot = shear_rate_of_omega(rho, state.omega, physics.stress_magnitude(&state.m));
+        curved = limited_curvature(&curved, gamma_dot);
+    }
     for i in 1..Q {
         if is_wall(i) {
             correction[i] -= physics.wall(0.0, i, rho, &curved);

@@ -109,6 +109,7 @@ impl<P: Physics> PlainRun<P> {
                     &residual,
                     fluid,
                     self.setup.stress_source,
+                    false,
                 );
             }
         }

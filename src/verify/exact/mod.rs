@@ -6,6 +6,7 @@
 
 pub mod abc;
 pub mod couette;
+pub mod dam_break;
 pub mod discrete_modes;
 pub mod duct;
 pub mod film;
@@ -18,9 +19,11 @@ pub mod poiseuille_clamped;
 pub mod quadrature;
 pub mod shear_wave;
 pub mod slip;
+pub mod slump;
 pub mod start_up;
 pub mod taylor_couette;
 pub mod taylor_green;
+pub mod thin_layer;
 pub mod viscoplastic_1d;
 pub mod womersley;
 
@@ -54,6 +57,14 @@ pub enum ExactError {
         until: f64,
         /// Largest |u| left.
         velocity: f64,
+    },
+    /// Fluid reached the end of the domain, which began dry.
+    #[error("the fluid reached the end of the domain of length {length} at t = {time}")]
+    EndReached {
+        /// Length of the domain.
+        length: f64,
+        /// When.
+        time: f64,
     },
     /// No eigenvalues.
     #[error("the eigenvalues of a {size} x {size} matrix could not be computed")]

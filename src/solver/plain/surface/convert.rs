@@ -82,7 +82,7 @@ impl<P: Physics> SurfaceRun<P> {
             let touches = Touches {
                 gas: bits & touch::GAS != 0,
                 liquid: bits & touch::LIQUID != 0,
-                interface: bits & touch::INTERFACE != 0,
+                held: self.is_held(cell),
             };
             let rho = 1.0 + density_excess(&self.f[cell]);
             let (margin, lonely) = (self.surface.margin, self.surface.lonely_margin);
@@ -92,6 +92,18 @@ impl<P: Physics> SurfaceRun<P> {
             }
         }
         marks
+    }
+
+    /// Whether an interface cell touches a wall, or an interface cell other than itself that touches liquid
+    /// or a wall. Where it touches liquid the answer is not needed and `true`.
+    fn is_held(&self, cell: usize) -> bool {
+        let firm = touch::LIQUID | touch::WALL;
+        let through = |i| {
+            self.links
+                .neighbour_along(cell, i)
+                .is_some_and(|n| n != cell && self.kinds[n] == Kind::Interface && self.touches[n] & firm != 0)
+        };
+        self.touches[cell] & firm != 0 || (1..Q).any(through)
     }
 
     /// Gas next to a filling cell: becomes interface.

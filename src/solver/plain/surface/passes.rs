@@ -22,8 +22,8 @@ pub mod touch {
     pub const GAS: u8 = 1;
     /// A liquid neighbour.
     pub const LIQUID: u8 = 2;
-    /// An interface neighbour other than itself.
-    pub const INTERFACE: u8 = 4;
+    /// A wall or solid.
+    pub const WALL: u8 = 4;
 }
 
 /// Chunks of an array that may be empty.
@@ -110,8 +110,16 @@ impl<P: Physics> SurfaceRun<P> {
             let residual = cell::residual_force(&self.f, &self.links, at, &force, fluid);
             let state = self.state(at, &force);
             let sourced = self.setup.stress_source;
-            self.corrections[slot] =
-                cell::wall_correction(&self.physics, record, &self.f[at], &state, &residual, 0, sourced);
+            self.corrections[slot] = cell::wall_correction(
+                &self.physics,
+                record,
+                &self.f[at],
+                &state,
+                &residual,
+                0,
+                sourced,
+                true,
+            );
         }
     }
 
@@ -271,6 +279,7 @@ impl<P: Physics> SurfaceRun<P> {
             let out = opposite(i);
             match self.links.source(cell, i) {
                 Source::Wall { velocity, .. } => {
+                    touches |= touch::WALL;
                     arrived[i] = cell::wall_link(&self.physics, own, correction, i, rho, &velocity);
                 }
                 Source::Open => {
@@ -280,7 +289,6 @@ impl<P: Physics> SurfaceRun<P> {
                 Source::Cell { cell: from, direction } => {
                     let (from, direction) = (from as usize, usize::from(direction));
                     let kind = self.kinds[from];
-                    let other = from != cell;
                     match kind {
                         Kind::Gas | Kind::Solid => {
                             touches |= touch::GAS;
@@ -290,7 +298,7 @@ impl<P: Physics> SurfaceRun<P> {
                             continue;
                         }
                         Kind::Liquid => touches |= touch::LIQUID,
-                        Kind::Interface => touches |= if other { touch::INTERFACE } else { 0 },
+                        Kind::Interface => {}
                     }
                     arrived[i] = self.post[from][direction];
                     let masses = [self.mass_before(cell), self.mass_before(from)];
