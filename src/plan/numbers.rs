@@ -167,11 +167,16 @@ pub(super) fn numbers(given: &Given) -> Numbers {
 
 /// σ0 over the force along the bed: a layer of this thickness on the slope is on the point of yielding.
 fn arrest_thickness(given: &Given) -> Option<f64> {
-    let pool = given.pool?;
     let law = &given.scene.fluid.rheology;
+    let force = along_bed(given)?;
+    (has_plug(law) && force > 0.0).then(|| law::parameters(law).sigma0 / force)
+}
+
+/// The force along the bed, N/m³; `None` without a free surface.
+fn along_bed(given: &Given) -> Option<f64> {
     let mut force = extreme_forces(&total_force(given.scene))[0];
-    force[pool.up.index()] = 0.0;
-    (has_plug(law) && norm(force) > 0.0).then(|| law::parameters(law).sigma0 / norm(force))
+    force[given.pool?.up.index()] = 0.0;
+    Some(norm(force))
 }
 
 fn surface_warnings(n: &Numbers) -> Vec<String> {
@@ -259,12 +264,13 @@ fn plug_slip(given: &Given) -> f64 {
     if !(plug && walls && exact) {
         return 0.0;
     }
+    let force = along_bed(given).unwrap_or(given.scales.force);
     match given.setup.collision {
         CollisionChoice::Trt(odd) | CollisionChoice::CentralMoment(odd) => {
-            2.0 * odd.floor * given.scales.force * given.units.dt_s / given.units.rho0_kg_per_m3
+            2.0 * odd.floor * force * given.units.dt_s / given.units.rho0_kg_per_m3
         }
         // Third moments without memory: ω⁻ = 1, τ⁻ − ½ = ½.
-        CollisionChoice::Regularised => given.scales.force * given.units.dt_s / given.units.rho0_kg_per_m3,
+        CollisionChoice::Regularised => force * given.units.dt_s / given.units.rho0_kg_per_m3,
         // One rate: τ⁻ = τ⁺ has no bound in a plug.
         CollisionChoice::Bgk => f64::INFINITY,
     }

@@ -122,8 +122,8 @@ impl Checker<'_> {
         let parts = |key: &str, parts: &[Shape], inverted| {
             let path = format!("{path}.{key}");
             self.ensure(!parts.is_empty(), &path, || SceneProblem::NoPart)?;
-            let each = parts.iter().enumerate();
-            each.map(|(i, part)| self.shape(&format!("{path}[{i}]"), part, size_m, inverted)).collect()
+            let mut each = parts.iter().enumerate();
+            each.try_for_each(|(i, part)| self.shape(&format!("{path}[{i}]"), part, size_m, inverted))
         };
         match shape {
             Shape::Cone { direction, height_m, base_radius_m, top_radius_m, .. } => {
