@@ -87,7 +87,8 @@ fn probes_of_a_dam_break_agree_with_each_other() {
     assert!(series.last("front") > 0.15, "{fronts:?}");
     let (volume, window) = (series.column("volume"), series.column("part_volume"));
     for (volume, window) in volume.iter().zip(&window) {
-        assert_eq!(volume, window, "the window is the whole box");
+        // The window is the whole box; the two products are taken in another order.
+        assert!((volume - window).abs() <= 4.0 * f64::EPSILON * volume, "{volume} {window}");
     }
     assert!((volume[0] - 1e-4).abs() < 1e-18);
     // A Newtonian fluid has no plug.

@@ -259,12 +259,13 @@ fn at_rest(law: &Rheology, units: &Units) -> f64 {
 fn plug_slip(given: &Given) -> f64 {
     let laws = std::iter::once(&given.scene.fluid.rheology);
     let plug = laws.chain(given.scene.layers.iter().map(|layer| &layer.rheology)).any(has_plug);
-    let walls = given.gap.is_finite() && given.setup.wall_rule == WallRule::HalfWay;
+    let walls = (given.gap.is_finite() || given.pool.is_some()) && given.setup.wall_rule == WallRule::HalfWay;
     let exact = given.setup.yielding == YieldTreatment::Exact;
     if !(plug && walls && exact) {
         return 0.0;
     }
-    let force = along_bed(given).unwrap_or(given.scales.force);
+    // Where the bed is part of the solids, its slope is not known: the whole weight is a bound.
+    let force = along_bed(given).filter(|along| *along > 0.0).unwrap_or(given.scales.force);
     match given.setup.collision {
         CollisionChoice::Trt(odd) | CollisionChoice::CentralMoment(odd) => {
             2.0 * odd.floor * force * given.units.dt_s / given.units.rho0_kg_per_m3
