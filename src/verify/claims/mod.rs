@@ -2,6 +2,7 @@
 
 use super::study::Study;
 
+pub mod dam_break;
 pub mod moments;
 pub mod mutants_physics;
 pub mod poiseuille;
@@ -9,8 +10,14 @@ pub mod stability;
 pub mod unsteady;
 pub mod viscosity;
 
-static STUDIES: [&Study; 5] =
-    [&moments::STUDY, &viscosity::STUDY, &poiseuille::STUDY, &unsteady::STUDY, &stability::STUDY];
+static STUDIES: [&Study; 6] = [
+    &moments::STUDY,
+    &viscosity::STUDY,
+    &poiseuille::STUDY,
+    &unsteady::STUDY,
+    &stability::STUDY,
+    &dam_break::STUDY,
+];
 
 /// All studies, in the order of the report.
 #[must_use]
