@@ -179,7 +179,11 @@ fn run(
     let options = Options { out, backend: backend.backend(), threads, until_s, quiet };
     let finished = run_scene::run(&scene, &plan, &options)?;
     if !quiet {
-        let why = if finished.steady { "steady" } else { "end time" };
+        let why = match (finished.steady, finished.arrested) {
+            (true, _) => "steady",
+            (_, true) => "at rest",
+            _ => "end time",
+        };
         let residual = finished.residual.map_or_else(String::new, |r| format!(", residual {r:.2e}"));
         eprintln!(
             "done: {} steps, {:.6} s ({why}{residual}), {:.1} s of computing, {:.2} million updates per second",

@@ -155,3 +155,75 @@ fn unwritable_folder_is_exit_code_4_and_bad_usage_2() {
     assert_eq!(lahar(&["run", scene, "--until", "-1"]).status.code(), Some(2));
     assert_eq!(lahar(&["fly"]).status.code(), Some(2));
 }
+
+#[test]
+fn free_surface_run_writes_surfaces_sections_and_ledger() {
+    let out = folder("surface");
+    let scene = "scenes/show/slump_cone.json";
+    let output = lahar(&["run", scene, "--out", &out.to_string_lossy(), "--until", "0.005"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    for file in [
+        "fields_000001.vti",
+        "surface_000000.vtp",
+        "surface.pvd",
+        "section_shape_000000.csv",
+        "depth_seen_from_above_000000.vti",
+        "plots/section_shape.svg",
+        "plots/depth_seen_from_above.svg",
+        "plots/depth.svg",
+        "plots/speed.svg",
+        "plots/series_spread_x.svg",
+    ] {
+        assert!(out.join(file).is_file(), "{file}");
+    }
+    let summary = Summary::read(&out.join("summary.json")).expect("a summary");
+    let ledger = summary.free_surface.expect("a ledger");
+    // A quarter of a litre of 2000 kg/m³ from subsamples, plus the weight of compression.
+    assert!((ledger.initial_mass_kg - 0.5).abs() < 0.005, "{}", ledger.initial_mass_kg);
+    // 4200 cells, 20 steps: roundings of each cell and step add up at worst.
+    assert!(summary.mass_residual.abs() < 1e-12, "{}", summary.mass_residual);
+    let series = Series::read(&out.join("series.csv")).expect("a series");
+    let column = |name: &str| {
+        let at = series.columns.iter().position(|c| c.name == name).unwrap_or_else(|| panic!("{name}"));
+        series.rows.iter().map(|row| row[at]).collect::<Vec<f64>>()
+    };
+    // The quarter is symmetric about its diagonal; rounding may differ between the two directions.
+    for (x, y) in column("spread_x").iter().zip(column("spread_y")) {
+        assert!((x - y).abs() < 1e-9, "{x} {y}");
+    }
+}
+
+#[test]
+fn fluid_at_rest_ends_the_run() {
+    let out = folder("arrested");
+    std::fs::create_dir_all(&out).expect("a folder");
+    // A heap 2 cells high of a stiff mud: its yield stress holds ten times its weight.
+    let scene = r#"{
+        "domain": {
+            "size_m": [0.2, 0.01, 0.06], "spacing_m": 0.01,
+            "boundaries": { "x_min": "no_slip", "x_max": "open", "z_min": "no_slip", "z_max": "open" }
+        },
+        "gravity": { "magnitude_m_per_s2": 9.81, "direction": [0, 0, -1] },
+        "fluid": {
+            "density_kg_per_m3": 1000.0,
+            "rheology": { "bingham": { "yield_stress_pa": 2000.0, "plastic_viscosity_pa_s": 10.0 } },
+            "initial": { "shapes": [{ "shape": { "box": { "min_m": [0, -1, 0], "max_m": [0.08, 1, 0.02] } } }] }
+        },
+        "numerics": { "time_step_s": 0.0005 },
+        "stop": {
+            "end_time_s": 20.0,
+            "arrested": { "speed_m_per_s": 0.001, "for_s": 0.5, "check_every_s": 0.05 }
+        },
+        "output": { "probes": [{ "name": "volume", "measure": "volume" }, { "name": "plug", "measure": "plug_fraction" }] }
+    }"#;
+    let path = out.join("stiff.json");
+    std::fs::write(&path, scene).expect("a written scene");
+    let output = lahar(&["run", &path.to_string_lossy(), "--out", &out.to_string_lossy()]);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    assert!(message.contains("(at rest)"), "{message}");
+    let summary = Summary::read(&out.join("summary.json")).expect("a summary");
+    // Not before the stretch of rest is over, and long before the end.
+    assert!((0.5..10.0).contains(&summary.time_s), "{}", summary.time_s);
+    assert!(summary.speed_m_per_s.greatest < 0.01, "{}", summary.speed_m_per_s.greatest);
+}

@@ -1,6 +1,7 @@
 //! What is written can be read back: VTI through vtkio, summary through its own reader.
 
 use lahar::output::OutputError;
+use lahar::output::isosurface::Mesh;
 use lahar::output::summary::{Extrema, Summary};
 use lahar::output::vti::Image;
 use lahar::solver::fingerprint::Fingerprint;
@@ -74,6 +75,34 @@ fn vti_states_its_time() {
     assert!(text.contains("Name=\"TimeValue\"") && text.contains(">0.75</DataArray>"), "{text}");
 }
 
+/// Positions of a mesh whose bytes are all far from `<` and `&` (see [`noise`]): whole numbers and halves.
+#[test]
+fn exact_vtp_read_back_by_vtkio() {
+    let mesh = Mesh {
+        points: vec![[0.0, 0.5, 1.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]],
+        vectors: vec![[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.5], [1.0, 1.0, 1.0]],
+        triangles: vec![[0, 1, 2], [1, 3, 2]],
+    };
+    let path = folder("surface.vtp");
+    lahar::output::vtp::write(&path, &mesh, "velocity_m_per_s", 0.25).unwrap();
+    let vtk = vtkio::Vtk::import(&path).unwrap();
+    let DataSet::PolyData { pieces, .. } = vtk.data else { panic!("not PolyData") };
+    let Piece::Inline(piece) = &pieces[0] else { panic!("no inline piece") };
+    let numbers = |buffer: &IOBuffer| -> Vec<f64> {
+        let IOBuffer::F64(v) = buffer else { panic!("not f64") };
+        v.clone()
+    };
+    assert_eq!(numbers(&piece.points), mesh.points.concat());
+    let Some(Attribute::DataArray(array)) = piece.data.point.first() else { panic!("no point data") };
+    assert_eq!(array.name, "velocity_m_per_s");
+    assert_eq!(numbers(&array.data), mesh.vectors.concat());
+    let Some(vtkio::model::VertexNumbers::XML { connectivity, offsets }) = &piece.polys else {
+        panic!("no triangles")
+    };
+    assert_eq!(connectivity, &[0, 1, 2, 1, 3, 2]);
+    assert_eq!(offsets, &[3, 6]);
+}
+
 #[test]
 fn exact_summary_round_trip() {
     let summary = Summary {
@@ -96,6 +125,7 @@ fn exact_summary_round_trip() {
             momentum: [0.0; 3],
             max_speed: 0.1,
         },
+        free_surface: None,
         stopped: None,
     };
     let path = folder("summary.json");

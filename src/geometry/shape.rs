@@ -1,8 +1,9 @@
-//! Boxes, cylinders, spheres and extruded polygons.
+//! Boxes, cylinders, spheres, cones, extruded polygons, half-spaces, terrain, and combinations of them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::heightfield::Heightfield;
 use super::polygon;
 
 /// A coordinate axis.
@@ -92,6 +93,40 @@ pub enum Shape {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         to_m: Option<f64>,
     },
+    /// Round cone between two discs; a tip where `top_radius_m` is 0.
+    Cone {
+        /// Centre of the base, m.
+        base_m: [f64; 3],
+        /// From base to top, any length but zero.
+        direction: [f64; 3],
+        /// Distance from base to top, m.
+        height_m: f64,
+        /// Radius of the base, m.
+        base_radius_m: f64,
+        /// Radius of the top, m.
+        #[serde(default)]
+        top_radius_m: f64,
+    },
+    /// Everything behind a plane.
+    HalfSpace {
+        /// A point of the plane, m.
+        point_m: [f64; 3],
+        /// Points out of the half-space, any length but zero.
+        normal: [f64; 3],
+    },
+    /// Everything below a surface given by heights on a grid.
+    Heightfield(Heightfield),
+    /// What is in at least one of the shapes.
+    Union(Vec<Shape>),
+    /// What is in all of the shapes.
+    Intersection(Vec<Shape>),
+    /// What is in the first shape and in none of the others: a bed with a recess.
+    Difference {
+        /// The whole.
+        from: Box<Shape>,
+        /// What is taken away.
+        minus: Vec<Shape>,
+    },
 }
 
 /// Axis-aligned bounds; infinite where a shape has no end.
@@ -101,6 +136,27 @@ pub struct Bounds {
     pub min: [f64; 3],
     /// High corner, m.
     pub max: [f64; 3],
+}
+
+impl Bounds {
+    const EVERYWHERE: Self = Self { min: [f64::NEG_INFINITY; 3], max: [f64::INFINITY; 3] };
+    const NOWHERE: Self = Self { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
+
+    /// The smallest bounds around both.
+    fn around(self, other: Self) -> Self {
+        Self {
+            min: std::array::from_fn(|a| if other.min[a] < self.min[a] { other.min[a] } else { self.min[a] }),
+            max: std::array::from_fn(|a| if other.max[a] > self.max[a] { other.max[a] } else { self.max[a] }),
+        }
+    }
+
+    /// What both have in common.
+    fn within(self, other: Self) -> Self {
+        Self {
+            min: std::array::from_fn(|a| if other.min[a] > self.min[a] { other.min[a] } else { self.min[a] }),
+            max: std::array::from_fn(|a| if other.max[a] < self.max[a] { other.max[a] } else { self.max[a] }),
+        }
+    }
 }
 
 impl Shape {
@@ -125,6 +181,12 @@ impl Shape {
                 from_m.is_none_or(|from| from <= h)
                     && to_m.is_none_or(|to| h < to)
                     && polygon::contains(points_m, [p[a], p[b]])
+            }
+            Self::Cone { .. } | Self::HalfSpace { .. } | Self::Heightfield(_) => self.depth(p) > 0.0,
+            Self::Union(parts) => parts.iter().any(|part| part.contains(p)),
+            Self::Intersection(parts) => parts.iter().all(|part| part.contains(p)),
+            Self::Difference { from, minus } => {
+                from.contains(p) && !minus.iter().any(|part| part.contains(p))
             }
         }
     }
@@ -154,6 +216,21 @@ impl Shape {
                 bounds.max[axis.index()] = to_m.unwrap_or(f64::INFINITY);
                 bounds
             }
+            Self::Cone { base_m, direction, height_m, base_radius_m, top_radius_m } => {
+                let radius = if top_radius_m > base_radius_m { top_radius_m } else { base_radius_m };
+                cylinder_bounds(*base_m, *direction, *radius, Some(*height_m))
+            }
+            Self::HalfSpace { point_m, normal } => half_space_bounds(*point_m, *normal),
+            Self::Heightfield(field) => {
+                let mut bounds = Bounds::EVERYWHERE;
+                bounds.max[2] = field.range()[1];
+                bounds
+            }
+            Self::Union(parts) => parts.iter().map(Self::bounds).fold(Bounds::NOWHERE, Bounds::around),
+            Self::Intersection(parts) => {
+                parts.iter().map(Self::bounds).fold(Bounds::EVERYWHERE, Bounds::within)
+            }
+            Self::Difference { from, .. } => from.bounds(),
         }
     }
 
@@ -179,6 +256,20 @@ impl Shape {
             _ => None,
         }
     }
+}
+
+/// Bounded only when the normal lies along an axis.
+fn half_space_bounds(point: [f64; 3], normal: [f64; 3]) -> Bounds {
+    let mut bounds = Bounds::EVERYWHERE;
+    let mut along = (0..3).filter(|&a| normal[a] != 0.0);
+    if let (Some(a), None) = (along.next(), along.next()) {
+        if normal[a] > 0.0 {
+            bounds.max[a] = point[a];
+        } else {
+            bounds.min[a] = point[a];
+        }
+    }
+    bounds
 }
 
 fn cylinder_bounds(point: [f64; 3], direction: [f64; 3], radius: f64, length: Option<f64>) -> Bounds {

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 pub mod atomic;
 pub mod csv;
+pub mod isosurface;
 pub mod picture;
 pub mod plot;
 pub mod progress;
@@ -14,6 +15,7 @@ pub mod summary;
 pub mod svg;
 mod ticks;
 pub mod vti;
+pub mod vtp;
 
 /// Why an output could not be produced.
 #[derive(Debug, thiserror::Error)]

@@ -41,9 +41,56 @@ pub struct Summary {
     pub speed_m_per_s: Extrema,
     /// Hash and digest of the final state.
     pub fingerprint: Fingerprint,
+    /// The ledger; only with a free surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub free_surface: Option<SurfaceSummary>,
     /// Why a guard stopped the run, if one did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,
+}
+
+/// Where the mass and momentum of a flow with a free surface are, and where they came from and went.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceSummary {
+    /// Mass at time 0, kg.
+    #[serde(with = "number")]
+    pub initial_mass_kg: f64,
+    /// Mass at the end, kg.
+    #[serde(with = "number")]
+    pub mass_kg: f64,
+    /// Mass that left through open faces, kg.
+    #[serde(with = "number")]
+    pub outflow_kg: f64,
+    /// Mass that came in at moving walls, kg.
+    #[serde(with = "number")]
+    pub from_walls_kg: f64,
+    /// Mass that has no cell at the moment, kg; part of `mass_kg`.
+    #[serde(with = "number")]
+    pub parked_kg: f64,
+    /// (mass + outflow − from walls − initial)/initial.
+    #[serde(with = "number")]
+    pub mass_residual: f64,
+    /// Momentum at the end, N s.
+    pub momentum_n_s: [f64; 3],
+    /// Momentum brought in by gravity and body force, N s.
+    pub from_force_n_s: [f64; 3],
+    /// Momentum brought in by walls and mirror planes of the box, N s.
+    pub from_faces_n_s: [f64; 3],
+    /// Momentum brought in by solids, N s.
+    pub from_solids_n_s: [f64; 3],
+    /// Momentum brought in at the surface, N s.
+    pub from_gas_n_s: [f64; 3],
+    /// Momentum brought in by cells that became fluid, less what others took, N s.
+    pub from_conversions_n_s: [f64; 3],
+    /// Largest component of what the terms above leave unexplained, N s.
+    #[serde(with = "number")]
+    pub momentum_residual_n_s: f64,
+    /// Full cells.
+    pub liquid_cells: u64,
+    /// Partly filled cells.
+    pub interface_cells: u64,
+    /// Cells that changed kind during the run.
+    pub conversions: u64,
 }
 
 /// Range of a field over the fluid cells.

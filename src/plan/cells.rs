@@ -1,5 +1,6 @@
 //! Which cells are solid, which fluid they hold, and how wide the gaps between walls are.
 
+use super::surface::{self, Pool};
 use crate::geometry::{Axis, Shape};
 use crate::scene::{Boundary, Domain, Scene};
 
@@ -12,8 +13,12 @@ pub struct Cells {
     pub solids: Vec<u8>,
     /// Per cell: number of the fluid; empty with one fluid.
     pub fluid_of_cell: Vec<u8>,
-    /// Fluid cells.
+    /// Fluid cells, at time 0.
     pub fluid_cells: u64,
+    /// Fill at time 0; empty without a free surface.
+    pub fill: Vec<f64>,
+    /// How the fluid lies; `None` without a free surface.
+    pub pool: Option<Pool>,
     /// Widest place between walls, in cells: over all fluid cells, the largest value of the
     /// shortest of the three axis-parallel distances from wall to wall. Infinite without walls.
     pub gap: f64,
@@ -34,9 +39,13 @@ pub fn fill(scene: &Scene) -> Cells {
     let layers: Vec<(&Shape, bool)> = scene.layers.iter().map(|l| (&l.shape, false)).collect();
     let fluid_of_cell = paint(extents, scene.domain.spacing_m, &layers);
     let total = extents.iter().map(|&n| n as u64).product::<u64>();
-    let fluid_cells = total - solids.iter().filter(|&&s| s != 0).count() as u64;
+    let open_cells = total - solids.iter().filter(|&&s| s != 0).count() as u64;
     let gap = gap(extents, &scene.domain.boundaries.by_axis(), &solids);
-    Cells { extents, solids, fluid_of_cell, fluid_cells, gap }
+    let fill = surface::fill(scene, extents, &solids);
+    let pool = fill.as_ref().map(|fill| surface::pool(scene, extents, &solids, fill));
+    let filled = fill.as_ref().map(|fill| fill.iter().filter(|&&fill| fill > 0.0).count() as u64);
+    let fluid_cells = filled.unwrap_or(open_cells);
+    Cells { extents, solids, fluid_of_cell, fluid_cells, fill: fill.unwrap_or_default(), pool, gap }
 }
 
 /// Number (from 1) of the last shape that holds a cell's centre, 0 without one; empty without

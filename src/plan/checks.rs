@@ -2,7 +2,7 @@
 
 use super::cells::{Cells, holds_a_cell};
 use super::error::PlanProblem;
-use super::memory::MOST_BYTES_PER_CELL;
+use super::memory::most_bytes_per_cell;
 use super::numbers::Numbers;
 use crate::rheology::Law;
 use crate::scene::Scene;
@@ -22,7 +22,7 @@ const STEPS_MAX: f64 = 9e15;
 /// Predicted bytes against the available ones, before anything is allocated.
 pub(super) fn memory(scene: &Scene, available: Option<u64>) -> Result<(), PlanProblem> {
     let cells = super::cells::extents(&scene.domain).iter().map(|&n| n as u128).product::<u128>();
-    let needed = cells * u128::from(MOST_BYTES_PER_CELL);
+    let needed = cells * u128::from(most_bytes_per_cell(scene));
     match available {
         Some(bytes) if needed > u128::from(bytes) => Err(PlanProblem::OutOfMemory {
             cells: u64::try_from(cells).unwrap_or(u64::MAX),
@@ -53,7 +53,8 @@ pub(super) fn shapes(scene: &Scene) -> Result<(), (String, PlanProblem)> {
 }
 
 pub(super) fn some_fluid(cells: &Cells) -> Result<(), PlanProblem> {
-    if cells.fluid_cells == 0 {
+    let solid = !cells.solids.is_empty() && cells.solids.iter().all(|&s| s != 0);
+    if solid {
         return Err(PlanProblem::SolidEverywhere { cells: cells.solids.len() as u64 });
     }
     Ok(())

@@ -18,6 +18,29 @@ pub enum PlanProblem {
         "`{name}` holds no cell centre\n  allowed: shapes with at least one; a cell belongs to a shape if its centre is inside\n  way out: a shape larger than the spacing of {spacing} m, or a finer spacing"
     )]
     NoCellCovered { name: String, spacing: f64 },
+    /// A part of the initial fluid that is nowhere.
+    #[error(
+        "`{name}` fills no cell\n  allowed: fluid in at least one cell at time 0\n  way out: a place inside the box and a size of about the spacing of {spacing} m or more"
+    )]
+    NoCellFilled { name: String, spacing: f64 },
+    /// A part of the initial fluid that lies in solids.
+    #[error(
+        "`{name}` fills no cell: all of it lies inside {solids}\n  allowed: parts that reach out of the solids; what is inside them does not count\n  way out: move it, remove it, or take a recess out of the solid with `difference`"
+    )]
+    FluidInsideSolids { name: String, solids: String },
+    /// No air to move into.
+    #[error(
+        "{fluid} of {cells} cells hold fluid, {solids} are solid, and no empty cell can be reached: there is no free surface\n  allowed: fluid that has room to move into\n  way out: less fluid, open up the solids, or leave out `fluid.initial` for a box full of fluid"
+    )]
+    NoRoom { fluid: u64, solids: u64, cells: u64 },
+    /// Fluid at an open face.
+    #[error("fluid touches the open face {face} at time 0 in {cells} cells, the first at ({:.6}, {:.6}, {:.6}) m\n  allowed: open faces that fluid reaches later; here it would drain from the first step on\n  way out: make {face} a wall, or leave at least one cell of air before it", .at_m[0], .at_m[1], .at_m[2])]
+    OpenUnderFluid { face: &'static str, cells: u64, at_m: [f64; 3] },
+    /// A recess that is none.
+    #[error(
+        "takes nothing away: no cell centre is inside both\n  allowed: parts that remove at least one cell\n  way out: move it to where `from` is, make it larger than the spacing of {spacing} m, or remove it"
+    )]
+    NothingRemoved { spacing: f64 },
     /// More memory than there is.
     #[error(
         "{cells} cells need {needed_gib:.2} GiB\n  allowed: at most the {available_gib:.2} GiB that are available\n  way out: a coarser `domain.spacing_m`, or one cell along periodic axes on which nothing changes"

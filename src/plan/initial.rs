@@ -3,8 +3,10 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use super::cells::Cells;
 use super::scale::{closed_axes, total_force};
-use crate::scene::{BodyForce, InitialVelocity, Scene};
+use crate::free_surface::{Kind, hydrostatic};
+use crate::scene::{BodyForce, InitialPressure, InitialVelocity, Scene};
 use crate::solver::setup::{FlowPoint, InitialFlow};
 use crate::units::Units;
 
@@ -17,8 +19,16 @@ struct Wave {
 
 /// The initial flow of a scene, or `None` for rest at uniform pressure.
 #[must_use]
-pub fn initial_flow(scene: &Scene, units: &Units, extents: [usize; 3]) -> Option<InitialFlow> {
+pub fn initial_flow(scene: &Scene, units: &Units, cells: &Cells, force: &[f64; 3]) -> Option<InitialFlow> {
+    let extents = cells.extents;
     let flow = scene.fluid.initial_velocity;
+    if let Some(initial) = &scene.fluid.initial {
+        let weightless = initial.pressure == InitialPressure::Uniform;
+        // At rest the solver itself starts with the pressure that balances the weight.
+        let own = weightless || flow != InitialVelocity::AtRest;
+        let force = if weightless { &[0.0; 3] } else { force };
+        return own.then(|| flow_below_surface(flow, units, cells, force));
+    }
     let push = pressure_gradient(scene, units);
     if flow == InitialVelocity::AtRest && push == [0.0; 3] {
         return None;
@@ -33,6 +43,24 @@ pub fn initial_flow(scene: &Scene, units: &Units, extents: [usize; 3]) -> Option
             gradient: wave.gradient,
         }
     }))
+}
+
+/// The flow with the pressure that balances the weight of fluid at rest.
+fn flow_below_surface(flow: InitialVelocity, units: &Units, cells: &Cells, force: &[f64; 3]) -> InitialFlow {
+    let kind = |cell: usize| match cells.fill[cell] {
+        _ if cells.solids.get(cell).is_some_and(|&s| s != 0) => Kind::Solid,
+        fill if fill <= 0.0 => Kind::Gas,
+        fill if fill < 1.0 => Kind::Interface,
+        _ => Kind::Liquid,
+    };
+    let kinds: Vec<Kind> = (0..cells.fill.len()).map(kind).collect();
+    let (extents, units) = (cells.extents, *units);
+    let excess = hydrostatic::density_excess(extents, &kinds, &cells.fill, force);
+    Arc::new(move |cell| {
+        let wave = wave(&flow, &units, extents, cell);
+        let index = cell[0] + extents[0] * (cell[1] + extents[1] * cell[2]);
+        FlowPoint { density: 1.0 + excess[index], velocity: wave.velocity, gradient: wave.gradient }
+    })
 }
 
 /// Pressure gradient that holds the force at time 0 along walled axes: ∇p = f.

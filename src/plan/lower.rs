@@ -6,9 +6,13 @@ use super::law::to_lattice;
 use super::scale::total_force;
 use crate::collision::{CollisionChoice, OddRate};
 use crate::scene::{
-    BodyForce as SceneForce, Boundary, ClampLimits, Collision, Operator, Scene, WallChoice, YieldChoice,
+    BodyForce as SceneForce, Boundary, ClampLimits, Collision, ExcessChoice, Measure, Operator, Probe,
+    RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
-use crate::solver::setup::{BodyForce, Face, Setup, SolidMotion, WallRule, YieldTreatment};
+use crate::solver::setup::{
+    BodyForce, ExcessRule, Face, FreeSurface, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
+    YieldTreatment,
+};
 use crate::units::Units;
 
 /// The set-up of a scene.
@@ -17,7 +21,13 @@ pub fn lower(scene: &Scene, units: &Units, cells: Cells) -> Setup {
     let mut setup = Setup::periodic(cells.extents, to_lattice(&scene.fluid.rheology, units));
     setup.faces = scene.domain.boundaries.by_axis().map(|faces| faces.map(|face| lower_face(face, units)));
     setup.fluids.extend(scene.layers.iter().map(|layer| to_lattice(&layer.rheology, units)));
-    setup.initial = initial_flow(scene, units, cells.extents);
+    setup.force = force(&total_force(scene), units);
+    setup.initial = initial_flow(scene, units, &cells, &setup.force.at(0));
+    if cells.pool.is_some() {
+        setup.free_surface = Some(free_surface(scene.numerics.free_surface.unwrap_or_default(), cells.fill));
+    }
+    let is_force = |probe: &Probe| matches!(probe.measure, Measure::Force { .. });
+    setup.loads = scene.output.probes.iter().any(is_force);
     setup.solids = cells.solids;
     setup.fluid_of_cell = cells.fluid_of_cell;
     setup.solid_motion = solid_motion(scene, units);
@@ -28,8 +38,31 @@ pub fn lower(scene: &Scene, units: &Units, cells: Cells) -> Setup {
         WallChoice::ViscosityIndependent => WallRule::ViscosityIndependent,
     };
     setup.stress_source = scene.numerics.stress_source;
-    setup.force = force(&total_force(scene), units);
     setup
+}
+
+/// The rules of the surface with defaults filled in.
+#[must_use]
+pub fn free_surface(rules: SurfaceRules, fill: Vec<f64>) -> FreeSurface {
+    let default = FreeSurface::new(fill);
+    FreeSurface {
+        force: match rules.gravity {
+            SurfaceGravity::Full => SurfaceForce::Full,
+            SurfaceGravity::ByFill => SurfaceForce::ByFill,
+            SurfaceGravity::ByFillAndInertia => SurfaceForce::ByFillAndInertia,
+        },
+        refill: match rules.refill {
+            RefillChoice::Equilibrium => Refill::Equilibrium,
+            RefillChoice::WithStress => Refill::WithStress,
+        },
+        excess: match rules.excess {
+            ExcessChoice::Even => ExcessRule::Even,
+            ExcessChoice::AlongNormal => ExcessRule::AlongNormal,
+        },
+        margin: rules.fill_margin.unwrap_or(default.margin),
+        lonely_margin: rules.lonely_margin.unwrap_or(default.lonely_margin),
+        ..default
+    }
 }
 
 fn lower_face(face: Boundary, units: &Units) -> Face {
@@ -40,6 +73,7 @@ fn lower_face(face: Boundary, units: &Units) -> Face {
             Face::Moving(units.velocities_to_lattice(velocity_m_per_s))
         }
         Boundary::FreeSlip => Face::FreeSlip,
+        Boundary::Open => Face::Open,
     }
 }
 

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use crate::solver::setup::{Setup, YieldTreatment};
+use crate::scene::Scene;
+use crate::solver::setup::{Setup, SurfaceForce, YieldTreatment};
 
 /// Bytes per cell of one feature.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -19,6 +20,11 @@ pub const POPULATIONS: u64 = 2 * 19 * 8;
 const NEIGHBOURS: u64 = 4;
 /// Density, velocity, stress, shear rate and relaxation rate while fields are written.
 pub const FIELDS: u64 = (1 + 3 + 6 + 1 + 1) * 8;
+
+/// Kind, touched kinds, mass, fill now and at time 0, and velocity.
+const SURFACE: u64 = 1 + 1 + 8 + 8 + 8 + 24;
+/// Smoothed acceleration and the velocity it is made from.
+const INERTIA: u64 = 24 + 24;
 
 /// What each feature of a set-up costs.
 #[must_use]
@@ -38,12 +44,23 @@ pub fn items(setup: &Setup) -> Vec<Item> {
     if matches!(setup.yielding, YieldTreatment::LaggedClamped { .. }) {
         items.push(item("relaxation time of the previous step", 8));
     }
+    if let Some(surface) = &setup.free_surface {
+        items.push(item("free surface: kind, mass, fill, velocity", SURFACE));
+        items.push(item("fill and kind while writing", 9));
+        if surface.force == SurfaceForce::ByFillAndInertia {
+            items.push(item("acceleration in surface cells", INERTIA));
+        }
+    }
     items
 }
 
 /// Upper bound of the bytes per cell, known before anything is allocated: all features and the
 /// scratch arrays of `plan`.
-pub const MOST_BYTES_PER_CELL: u64 = POPULATIONS + NEIGHBOURS + FIELDS + 1 + 1 + 8 + 4;
+#[must_use]
+pub fn most_bytes_per_cell(scene: &Scene) -> u64 {
+    let surface = if scene.fluid.initial.is_some() { SURFACE + INERTIA + 9 } else { 0 };
+    POPULATIONS + NEIGHBOURS + FIELDS + 1 + 1 + 8 + 4 + surface
+}
 
 /// Memory that can still be taken, bytes; `None` where the system does not say.
 #[must_use]

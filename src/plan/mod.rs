@@ -7,16 +7,21 @@ mod initial;
 pub mod law;
 mod lower;
 mod memory;
+mod needs;
 mod numbers;
 mod print;
 mod scale;
+pub mod surface;
+mod surface_checks;
 mod time_step;
 
 use std::fmt;
 
 pub use error::{PlanError, PlanProblem};
 pub use memory::available as available_memory;
-pub use numbers::{Need, Numbers};
+pub use needs::Need;
+pub use numbers::Numbers;
+pub use scale::{extreme_forces, total_force};
 pub use time_step::StepRule;
 
 use crate::scene::Scene;
@@ -54,14 +59,18 @@ impl Plan {
         let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
         checks::memory(scene, available).map_err(|problem| at("domain", problem))?;
         checks::shapes(scene).map_err(|(path, problem)| at(&path, problem))?;
+        surface_checks::recesses(scene).map_err(|(path, problem)| at(&path, problem))?;
         let cells = cells::fill(scene);
         checks::some_fluid(&cells).map_err(|problem| at("solids", problem))?;
+        surface_checks::surface(scene, &cells).map_err(|(path, problem)| at(&path, problem))?;
         let scales = scale::scales(scene, &cells);
-        let (dt, rule) = time_step::choose(scene, &scales).map_err(|problem| at("numerics", problem))?;
+        let (dt, rule) = time_step::choose(scene, &scales, cells.pool.as_ref())
+            .map_err(|problem| at("numerics", problem))?;
         let units = time_step::units(scene, dt);
         let steps = checks::steps(scene, dt).map_err(|problem| at("stop.end_time_s", problem))?;
         let gap = cells.gap;
         let fluid_cells = cells.fluid_cells;
+        let pool = cells.pool;
         let setup = lower::lower(scene, &units, cells);
         checks::finite(&setup).map_err(|problem| at("fluid", problem))?;
         let numbers = numbers::numbers(&numbers::Given {
@@ -73,6 +82,7 @@ impl Plan {
             steps,
             gap,
             fluid_cells,
+            pool,
         });
         checks::numbers(&numbers, &setup).map_err(|problem| at(rule.path(), problem))?;
         Ok(Self { units, setup, steps, numbers })

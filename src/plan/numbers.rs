@@ -4,27 +4,18 @@ use serde::Serialize;
 
 use super::law::{self, apparent_viscosity, has_plug, plastic_viscosity};
 use super::memory::{Item, items};
-use super::scale::{Scales, norm};
+use super::needs::{Need, passes};
+use super::scale::{Scales, extreme_forces, norm, total_force};
+use super::surface::Pool;
 use super::time_step::{StepRule, reference_viscosity};
 use crate::collision::CollisionChoice;
 use crate::scene::{Rheology, Scene};
-use crate::solver::setup::{BodyForce, Face, Setup, WallRule, YieldTreatment};
+use crate::solver::setup::{Setup, WallRule, YieldTreatment};
 use crate::stability::max_stable_speed;
 use crate::units::Units;
 
 /// Cell updates per second assumed for the cost estimate: plain backend, one thread.
 const UPDATES_PER_SECOND: f64 = 4e6;
-
-/// A pass over the cells, and whether this run has it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Need {
-    /// The pass.
-    pub pass: &'static str,
-    /// Whether the run has it.
-    pub needed: bool,
-    /// Why, or why not.
-    pub because: &'static str,
-}
 
 /// Everything `lahar plan` shows. Infinite numbers are `null` in JSON.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -41,6 +32,15 @@ pub struct Numbers {
     pub spacing_m: f64,
     /// Widest gap between walls, cells; infinite without walls.
     pub gap_cells: f64,
+    /// Cells of air at time 0; `null` without a free surface.
+    pub gas_cells: Option<u64>,
+    /// Greatest depth of the fluid at time 0, cells; `null` without a free surface.
+    pub depth_cells: Option<f64>,
+    /// Volume of the fluid at time 0, m³; `null` without a free surface.
+    pub volume_m3: Option<f64>,
+    /// Thickness at which the fluid stops on this slope, σ0/(f along the bed), m; `null` without a yield
+    /// stress, a slope, or a free surface.
+    pub arrest_thickness_m: Option<f64>,
     /// Time step, s.
     pub time_step_s: f64,
     /// What fixed the time step.
@@ -103,11 +103,13 @@ pub(super) struct Given<'a> {
     pub steps: u64,
     pub gap: f64,
     pub fluid_cells: u64,
+    pub pool: Option<Pool>,
 }
 
 pub(super) fn numbers(given: &Given) -> Numbers {
     let Given { scene, units, setup, scales, .. } = *given;
     let cells = setup.extents.iter().map(|&n| n as u64).product::<u64>();
+    let solid_cells = setup.solids.iter().filter(|&&s| s != 0).count() as u64;
     let p = law::parameters(&scene.fluid.rheology);
     let (u, length) = (scales.velocity, scales.length);
     let speed_lattice = units.velocity_to_lattice(u);
@@ -125,9 +127,13 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         title: scene.title.clone().unwrap_or_else(|| scene.file.clone()),
         extents: setup.extents,
         fluid_cells: given.fluid_cells,
-        solid_cells: cells - given.fluid_cells,
+        solid_cells,
         spacing_m: units.dx_m,
         gap_cells: given.gap,
+        gas_cells: given.pool.map(|_| cells - solid_cells - given.fluid_cells),
+        depth_cells: given.pool.map(|pool| units.length_to_lattice(pool.depth)),
+        volume_m3: given.pool.map(|pool| pool.volume),
+        arrest_thickness_m: arrest_thickness(given),
         time_step_s: units.dt_s,
         time_step_rule: given.rule,
         end_time_s: scene.stop.end_time_s,
@@ -155,7 +161,39 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         warnings: Vec::new(),
     };
     numbers.warnings = warnings(&numbers, scene, setup);
+    numbers.warnings.extend(surface_warnings(&numbers));
     numbers
+}
+
+/// σ0 over the force along the bed: a layer of this thickness on the slope is on the point of yielding.
+fn arrest_thickness(given: &Given) -> Option<f64> {
+    let law = &given.scene.fluid.rheology;
+    let force = along_bed(given)?;
+    (has_plug(law) && force > 0.0).then(|| law::parameters(law).sigma0 / force)
+}
+
+/// The force along the bed, N/m³; `None` without a free surface.
+fn along_bed(given: &Given) -> Option<f64> {
+    let mut force = extreme_forces(&total_force(given.scene))[0];
+    force[given.pool?.up.index()] = 0.0;
+    Some(norm(force))
+}
+
+fn surface_warnings(n: &Numbers) -> Vec<String> {
+    let Some(depth) = n.depth_cells else { return Vec::new() };
+    let mut warnings = Vec::new();
+    if depth < 4.0 {
+        warnings.push(format!(
+            "the fluid is at most {depth:.1} cells deep at time 0: a film of less than 4 cells is off by several per cent"
+        ));
+    }
+    match n.arrest_thickness_m.map(|thickness| thickness / n.spacing_m) {
+        Some(cells) if cells < 4.0 => warnings.push(format!(
+            "the fluid comes to rest {cells:.1} cells thick on this slope; below 4 cells the deposit is not resolved"
+        )),
+        _ => {}
+    }
+    warnings
 }
 
 fn operator(collision: &CollisionChoice) -> &'static str {
@@ -221,78 +259,22 @@ fn at_rest(law: &Rheology, units: &Units) -> f64 {
 fn plug_slip(given: &Given) -> f64 {
     let laws = std::iter::once(&given.scene.fluid.rheology);
     let plug = laws.chain(given.scene.layers.iter().map(|layer| &layer.rheology)).any(has_plug);
-    let walls = given.gap.is_finite() && given.setup.wall_rule == WallRule::HalfWay;
+    let walls = (given.gap.is_finite() || given.pool.is_some()) && given.setup.wall_rule == WallRule::HalfWay;
     let exact = given.setup.yielding == YieldTreatment::Exact;
     if !(plug && walls && exact) {
         return 0.0;
     }
+    // Where the bed is part of the solids, its slope is not known: the whole weight is a bound.
+    let force = along_bed(given).filter(|along| *along > 0.0).unwrap_or(given.scales.force);
     match given.setup.collision {
         CollisionChoice::Trt(odd) | CollisionChoice::CentralMoment(odd) => {
-            2.0 * odd.floor * given.scales.force * given.units.dt_s / given.units.rho0_kg_per_m3
+            2.0 * odd.floor * force * given.units.dt_s / given.units.rho0_kg_per_m3
         }
         // Third moments without memory: ω⁻ = 1, τ⁻ − ½ = ½.
-        CollisionChoice::Regularised => given.scales.force * given.units.dt_s / given.units.rho0_kg_per_m3,
+        CollisionChoice::Regularised => force * given.units.dt_s / given.units.rho0_kg_per_m3,
         // One rate: τ⁻ = τ⁺ has no bound in a plug.
         CollisionChoice::Bgk => f64::INFINITY,
     }
-}
-
-fn passes(scene: &Scene, setup: &Setup) -> Vec<Need> {
-    let need = |pass, needed, because| Need { pass, needed, because };
-    let constant = setup.fluids.iter().all(|law| matches!(law, crate::rheology::Law::Newtonian { .. }));
-    let lagged = matches!(setup.yielding, YieldTreatment::LaggedClamped { .. });
-    let forced = match setup.force {
-        BodyForce::Constant(f) => norm(f) > 0.0,
-        BodyForce::Oscillating { .. } | BodyForce::Stepped { .. } => true,
-    };
-    let walls = setup.faces.iter().flatten().any(|face| *face != Face::Periodic);
-    vec![
-        if constant {
-            need("shear-rate solve", false, "all fluids are Newtonian: one relaxation time each")
-        } else {
-            need("shear-rate solve", true, "the viscosity depends on the shear rate [Y3]")
-        },
-        if lagged {
-            need("relaxation-time field", true, "the lagged scheme reads the previous step [Y4]")
-        } else {
-            need("relaxation-time field", false, "solved within the cell; nothing is stored")
-        },
-        if setup.solids.is_empty() {
-            need("solid lookup", false, "no solids inside the box")
-        } else {
-            need("solid lookup", true, "links may end in solids [B1]")
-        },
-        if setup.fluid_of_cell.is_empty() {
-            need("fluid lookup", false, "one fluid")
-        } else {
-            need("fluid lookup", true, "each cell names its fluid")
-        },
-        if walls {
-            need("wall links", true, "faces with walls or mirrors [B1] [B2]")
-        } else {
-            need("wall links", false, "all faces are periodic")
-        },
-        if forced {
-            need("body force", true, "gravity or a body force acts [L5]")
-        } else {
-            need("body force", false, "no force")
-        },
-        if setup.wall_rule == WallRule::ViscosityIndependent {
-            need("wall-slip correction", true, "`viscosity_independent` was chosen [B3]")
-        } else {
-            need("wall-slip correction", false, "plain half-way walls")
-        },
-        if setup.stress_source {
-            need("third-moment source", true, "`stress_source` was chosen [K6]")
-        } else {
-            need("third-moment source", false, "not chosen")
-        },
-        if scene.stop.steady.is_some() {
-            need("steadiness check", true, "`stop.steady` was given")
-        } else {
-            need("steadiness check", false, "runs to the end time")
-        },
-    ]
 }
 
 fn warnings(n: &Numbers, scene: &Scene, setup: &Setup) -> Vec<String> {
@@ -317,7 +299,10 @@ fn warnings(n: &Numbers, scene: &Scene, setup: &Setup) -> Vec<String> {
         n.tau_plastic > 2.0,
         format!("plastic relaxation time {:.2} is above 2: transients are smeared over steps", n.tau_plastic),
     );
-    warn(n.gap_cells < 8.0, format!("only {} cells between walls: errors of several per cent", n.gap_cells));
+    warn(
+        n.gap_cells < 8.0 && n.depth_cells.is_none(),
+        format!("only {} cells between walls: errors of several per cent", n.gap_cells),
+    );
     warn(
         n.stability_margin.is_some_and(|margin| margin < 2.0),
         "less than a factor of 2 below the von Neumann limit".to_owned(),

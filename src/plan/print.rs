@@ -9,9 +9,21 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     writeln!(f, "{}", n.title)?;
     let [nx, ny, nz] = n.extents;
     writeln!(f, "\nBox")?;
-    row(f, "cells", format_args!("{nx} × {ny} × {nz}: {} fluid, {} solid", n.fluid_cells, n.solid_cells))?;
+    let gas = n.gas_cells.map_or_else(String::new, |gas| format!(", {gas} air"));
+    row(
+        f,
+        "cells",
+        format_args!("{nx} × {ny} × {nz}: {} fluid, {} solid{gas}", n.fluid_cells, n.solid_cells),
+    )?;
     row(f, "spacing", format_args!("{} m", short(n.spacing_m)))?;
-    if n.gap_cells.is_finite() {
+    if let (Some(depth), Some(volume)) = (n.depth_cells, n.volume_m3) {
+        let metres = short(depth * n.spacing_m);
+        row(
+            f,
+            "fluid at time 0",
+            format_args!("{} m³, {metres} m deep, {} cells", short(volume), short(depth)),
+        )?;
+    } else if n.gap_cells.is_finite() {
         row(f, "widest gap", format_args!("{} cells between walls", n.gap_cells))?;
     } else {
         row(f, "widest gap", format_args!("no walls"))?;
@@ -34,6 +46,14 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     row(f, "Reynolds", format_args!("{}", short(n.reynolds)))?;
     row(f, "Bingham", format_args!("{}", short(n.bingham)))?;
     row(f, "Mach", format_args!("{}", short(n.mach)))?;
+    if let Some(thickness) = n.arrest_thickness_m {
+        let cells = short(thickness / n.spacing_m);
+        row(
+            f,
+            "arrest thickness",
+            format_args!("{} m, {cells} cells: σ0/(f along the bed)", short(thickness)),
+        )?;
+    }
     writeln!(f, "\nScheme")?;
     row(f, "collision", format_args!("{}", n.operator))?;
     row(f, "plastic τ", format_args!("{:.4}", n.tau_plastic))?;

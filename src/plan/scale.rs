@@ -1,7 +1,8 @@
 //! How fast the flow is expected to be, from what drives it.
 
 use super::cells::Cells;
-use super::law::{channel_velocity, shear_rate};
+use super::law::{apparent_viscosity, channel_velocity, shear_rate};
+use super::surface::Pool;
 use crate::geometry::Axis;
 use crate::scene::{BodyForce, Boundary, Gravity, InitialVelocity, Rheology, Scene};
 
@@ -79,7 +80,9 @@ pub fn closed_axes(scene: &Scene) -> [bool; 3] {
 #[must_use]
 pub fn scales(scene: &Scene, cells: &Cells) -> Scales {
     let dx = scene.domain.spacing_m;
-    let length = if cells.gap.is_finite() {
+    let length = if let Some(pool) = &cells.pool {
+        pool.depth
+    } else if cells.gap.is_finite() {
         cells.gap * dx
     } else {
         scene.domain.size_m.into_iter().fold(0.0, greatest)
@@ -94,12 +97,18 @@ pub fn scales(scene: &Scene, cells: &Cells) -> Scales {
     let laws = std::iter::once(&scene.fluid.rheology).chain(scene.layers.iter().map(|l| &l.rheology));
     let laws: Vec<&Rheology> = laws.collect();
     let half_gap = 0.5 * cells.gap * dx;
-    let driven = laws.iter().map(|law| driven_velocity(scene, law, driving, half_gap)).fold(0.0, greatest);
+    let driven = match &cells.pool {
+        Some(pool) => surface_velocity(scene, pool),
+        None => laws.iter().map(|law| driven_velocity(scene, law, driving, half_gap)).fold(0.0, greatest),
+    };
     let walls = wall_speed(scene, cells);
     let (initial, initial_rate) = initial_scales(scene);
     let estimate = greatest(walls, initial) + driven;
     let velocity = scene.numerics.reference_velocity_m_per_s.unwrap_or(estimate);
-    let wall_rate = if half_gap.is_finite() {
+    let wall_rate = if cells.pool.is_some() {
+        // No more than the whole velocity over one cell.
+        least(shear_rate(&scene.fluid.rheology, driving * length), velocity / dx)
+    } else if half_gap.is_finite() {
         laws.iter().map(|law| shear_rate(law, driving * half_gap)).fold(0.0, greatest)
     } else {
         0.0
@@ -112,6 +121,51 @@ pub fn scales(scene: &Scene, cells: &Cells) -> Scales {
         shear_rate_max: [wall_rate, initial_rate, rate].into_iter().fold(0.0, greatest),
         force: extremes.map(norm).into_iter().fold(0.0, greatest),
     }
+}
+
+/// Largest speed of a flow with a free surface: a level film flows as the force along it says; anything
+/// else collapses, falls freely, or runs down the slope.
+fn surface_velocity(scene: &Scene, pool: &Pool) -> f64 {
+    let law = &scene.fluid.rheology;
+    let rho = scene.fluid.density_kg_per_m3;
+    let closed = closed_axes(scene);
+    let mut most = 0.0;
+    for force in extreme_forces(&total_force(scene)) {
+        let along: [f64; 3] = std::array::from_fn(|a| if a == pool.up.index() { 0.0 } else { force[a] });
+        let walled = (0..3).any(|a| closed[a] && along[a] != 0.0);
+        let (along, across) = (norm(along), force[pool.up.index()].abs());
+        let film = least(channel_velocity(law, along, pool.depth), along / rho * scene.stop.end_time_s);
+        let longest = scene.domain.size_m.into_iter().fold(0.0, greatest);
+        let slope = least(film, (2.0 * along / rho * longest).sqrt());
+        let fall = least((2.0 * across / rho * pool.fall).sqrt(), across / rho * scene.stop.end_time_s);
+        let speed = if pool.level && !walled {
+            film
+        } else {
+            greatest(slope, collapse_velocity(law, rho, norm(force), pool.depth))
+        };
+        most = greatest(most, greatest(speed, fall));
+    }
+    most
+}
+
+/// U of a collapsing heap of depth h: ½ρU² + 2σ(2U/h) = 2 f h. Without viscosity it is Ritter's front,
+/// 2√(gh); for a slow Newtonian fluid f h²/(2μ), that of a film on a slope of 45°.
+fn collapse_velocity(law: &Rheology, rho: f64, force: f64, depth: f64) -> f64 {
+    let drive = 2.0 * force * depth;
+    let excess = |u: f64| {
+        let rate = 2.0 * u / depth;
+        0.5 * rho * u * u + 2.0 * apparent_viscosity(law, rate) * rate - drive
+    };
+    let (mut low, mut high) = (0.0, 2.0 * (force * depth / rho).sqrt());
+    if high <= 0.0 {
+        return 0.0;
+    }
+    // Halving the interval 60 times leaves nothing but rounding.
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if excess(middle) > 0.0 { high = middle } else { low = middle }
+    }
+    if low < 1e-12 * high.abs() { 0.0 } else { low }
 }
 
 /// The steady channel flow, or what the force can accelerate to before the end or within one
@@ -229,4 +283,22 @@ fn greatest(a: f64, b: f64) -> f64 {
 
 fn least(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_of_the_collapse_velocity() {
+        let (rho, g, h): (f64, f64, f64) = (1000.0, 9.81, 0.1);
+        let newtonian = |mu: f64| Rheology::Newtonian { viscosity_pa_s: mu };
+        let inviscid = collapse_velocity(&newtonian(1e-9), rho, rho * g, h);
+        assert!((inviscid / (2.0 * (g * h).sqrt()) - 1.0).abs() < 1e-6, "Ritter: {inviscid}");
+        // Inertia is ρU²/2 against 4μU/h: a share of 1e-7 for U = 5e-4 m/s.
+        let creeping = collapse_velocity(&newtonian(1e5), rho, rho * g, h);
+        assert!((creeping / (rho * g * h * h / 2e5) - 1.0).abs() < 1e-6, "film: {creeping}");
+        let stiff = Rheology::Bingham { yield_stress_pa: 1000.0, plastic_viscosity_pa_s: 1.0 };
+        assert_eq!(collapse_velocity(&stiff, rho, rho * g, h), 0.0, "2σ0 > 2ρgh: it stands");
+    }
 }

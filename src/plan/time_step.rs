@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::error::PlanProblem;
 use super::law::{parameters, plastic_viscosity};
 use super::scale::{Scales, closed_axes, extreme_forces, total_force};
+use super::surface::Pool;
 use crate::scene::{BodyForce, Scene};
 use crate::units::Units;
 
@@ -33,6 +34,8 @@ pub enum StepRule {
     TargetMach,
     /// Chosen: reference velocity 0.05 cells per step.
     Speed,
+    /// Chosen: fastest surge of a free surface 0.1 cells per step.
+    Surge,
     /// Chosen: up to 0.1 cells per step, to keep τ at 0.55.
     SpeedForTau,
     /// Chosen: plastic τ = 1.
@@ -53,6 +56,9 @@ impl StepRule {
             Self::TargetMach => "from `numerics.target_mach` and the reference velocity",
             Self::Speed => {
                 "chosen: reference velocity at 0.05 cells per step (least of that, plastic τ = 1, 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
+            }
+            Self::Surge => {
+                "chosen: fastest surge at 0.1 cells per step (least of that, plastic τ = 1, 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
             }
             Self::SpeedForTau => {
                 "chosen: reference velocity above 0.05, up to 0.1 cells per step, to bring the plastic τ up to 0.55"
@@ -105,7 +111,7 @@ pub fn reference_viscosity(scene: &Scene, scales: &Scales) -> Option<f64> {
 ///
 /// # Errors
 /// Neither a velocity nor a viscosity is known.
-pub fn choose(scene: &Scene, scales: &Scales) -> Result<(f64, StepRule), PlanProblem> {
+pub fn choose(scene: &Scene, scales: &Scales, pool: Option<&Pool>) -> Result<(f64, StepRule), PlanProblem> {
     let dx = scene.domain.spacing_m;
     let rho = scene.fluid.density_kg_per_m3;
     let numerics = &scene.numerics;
@@ -132,25 +138,30 @@ pub fn choose(scene: &Scene, scales: &Scales) -> Result<(f64, StepRule), PlanPro
         }
     };
     if scales.velocity > 0.0 {
-        let (slow, fast, low) = (of_speed(SPEED), of_speed(SPEED_HIGH), of_tau(TAU_LOW));
-        if low <= slow {
-            lower(slow, StepRule::Speed);
+        let surge = pool.is_some_and(|pool| !pool.level);
+        let (slow, rule) =
+            if surge { (of_speed(SPEED_HIGH), StepRule::Surge) } else { (of_speed(SPEED), StepRule::Speed) };
+        let (fast, low) = (of_speed(SPEED_HIGH), of_tau(TAU_LOW));
+        if low <= slow || surge {
+            lower(slow, rule);
         } else {
             lower(if low < fast { low } else { fast }, StepRule::SpeedForTau);
         }
     }
-    lower(compression_step(scene), StepRule::Compression);
+    lower(compression_step(scene, pool), StepRule::Compression);
     lower(duration(scene) / STEPS_PER_PERIOD, StepRule::Duration);
     Ok(best)
 }
 
-/// \[F7\]: the largest Δt with 3 f H Δt²/(ρ Δx²) ≤ 0.02 along every walled axis.
-fn compression_step(scene: &Scene) -> f64 {
+/// \[F7\]: the largest Δt with 3 f H Δt²/(ρ Δx²) ≤ 0.02 along every walled axis; H is the
+/// edge of the box, or the longest stretch of fluid below a free surface.
+fn compression_step(scene: &Scene, pool: Option<&Pool>) -> f64 {
+    let heights = pool.map_or(scene.domain.size_m, |pool| pool.runs);
     let dx = scene.domain.spacing_m;
     let mut least = f64::INFINITY;
     for force in extreme_forces(&total_force(scene)) {
         for (axis, closed) in closed_axes(scene).into_iter().enumerate() {
-            let weight = 3.0 * force[axis].abs() * scene.domain.size_m[axis];
+            let weight = 3.0 * force[axis].abs() * heights[axis];
             if closed && weight > 0.0 {
                 let dt = dx * (COMPRESSION * scene.fluid.density_kg_per_m3 / weight).sqrt();
                 least = if dt < least { dt } else { least };

@@ -7,6 +7,7 @@ use crate::output::OutputError;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::solver::run::{Runaway, StartError, Stopped};
+use crate::solver::setup::WallRule;
 
 /// Why a run did not end as planned.
 #[derive(Debug, thiserror::Error)]
@@ -82,6 +83,12 @@ fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
     let numbers = &plan.numbers;
     if matches!(stopped.what, Runaway::Ledger { .. }) {
         "a defect of the solver; please report the scene"
+    } else if stopped.tau < 0.52
+        && numbers.depth_cells.is_some()
+        && plan.setup.wall_rule == WallRule::ViscosityIndependent
+    {
+        "the relaxation time is near ½ below a free surface; a finer `domain.spacing_m`, a larger viscosity, or \
+         `half_way` walls"
     } else if stopped.tau < 0.55 {
         "the relaxation time is near ½, where waves grow [K5]; a finer `domain.spacing_m` or a larger viscosity"
     } else if stopped.tau.is_finite()

@@ -1,6 +1,9 @@
 //! Running a planned scene into a folder.
 
+mod columns;
 mod error;
+mod mesh;
+mod pictures;
 mod probes;
 mod schedule;
 mod writer;
@@ -43,6 +46,8 @@ pub struct Finished {
     pub residual: Option<f64>,
     /// Ended because it was steady.
     pub steady: bool,
+    /// Ended because the fluid had come to rest.
+    pub arrested: bool,
     /// Wall-clock time of the stepping, s.
     pub wall_seconds: f64,
     /// Million cell updates per second.
@@ -72,8 +77,10 @@ pub fn run(scene: &Scene, plan: &Plan, options: &Options) -> Result<Finished, Ru
         progress: &progress,
         mass_at_start: run.totals().mass_excess,
         stepping: 0.0,
+        updates: 0.0,
         last_check: None,
         residual: None,
+        at_rest_since: None,
     };
     let result = driver.drive(run.as_mut(), &mut writer);
     progress.finish();
@@ -88,6 +95,10 @@ struct Driver<'a> {
     progress: &'a Progress,
     mass_at_start: f64,
     stepping: f64,
+    /// Cell updates so far; the number of fluid cells changes with a free surface.
+    updates: f64,
+    /// Time of the first of the latest unbroken row of checks that found the fluid at rest, s.
+    at_rest_since: Option<f64>,
     last_check: Option<Vec<[f64; 3]>>,
     residual: Option<f64>,
 }
@@ -97,13 +108,14 @@ impl Driver<'_> {
         let mut fields = run.fields();
         writer.row(run, &fields)?;
         writer.fields(run, &fields)?;
-        let mut steady = false;
-        while run.step() < self.schedule.end && !steady {
+        let (mut steady, mut arrested) = (false, false);
+        while run.step() < self.schedule.end && !steady && !arrested {
             let due = self.schedule.next(run.step());
             self.advance(run, due, writer)?;
             fields = run.fields();
             steady = self.schedule.steady.take_if_due(due) && self.is_steady(&fields);
-            let last = steady || due >= self.schedule.end;
+            arrested = self.schedule.arrested.take_if_due(due) && self.is_arrested(run, &fields);
+            let last = steady || arrested || due >= self.schedule.end;
             if self.schedule.series.take_if_due(due) || last {
                 writer.row(run, &fields)?;
             }
@@ -113,7 +125,7 @@ impl Driver<'_> {
             }
         }
         writer.finish(&fields)?;
-        let finished = self.finished(run, steady);
+        let finished = Finished { steady, arrested, ..self.finished(run) };
         self.summary(run, &fields, writer, &finished, None)?;
         Ok(finished)
     }
@@ -122,13 +134,16 @@ impl Driver<'_> {
     fn advance(&mut self, run: &mut dyn Run, due: u64, writer: &mut Writer) -> Result<(), RunError> {
         let piece = (UPDATES_PER_MOVE / run.fluid_cells().max(1)).max(1);
         while run.step() < due {
+            let (from, cells) = (run.step(), run.fluid_cells());
             let clock = Instant::now();
-            let result = run.advance(piece.min(due - run.step()));
+            let result = run.advance(piece.min(due - from));
             self.stepping += clock.elapsed().as_secs_f64();
+            // The mean of before and after.
+            self.updates += 0.5 * (cells + run.fluid_cells()) as f64 * (run.step() - from) as f64;
             self.progress.set(run.step());
             if let Err(stopped) = result {
                 let report = StopReport::new(self.plan, self.scene, &stopped);
-                let finished = self.finished(run, false);
+                let finished = self.finished(run);
                 writer.finish_series()?;
                 let fields = run.fields();
                 self.summary(run, &fields, writer, &finished, Some(report.to_string()))?;
@@ -146,6 +161,19 @@ impl Driver<'_> {
         self.residual.is_some_and(|r| r <= tolerance)
     }
 
+    /// Whether every check of the last `for_s` found the fluid slower than the limit.
+    fn is_arrested(&mut self, run: &dyn Run, fields: &Fields) -> bool {
+        let Some(rule) = self.scene.stop.arrested else { return false };
+        let time = self.plan.units.time_to_si(run.step() as f64);
+        if self.plan.units.velocity_to_si(probes::weighted_speed(fields)) >= rule.speed_m_per_s {
+            self.at_rest_since = None;
+            return false;
+        }
+        let since = *self.at_rest_since.get_or_insert(time);
+        // Checks fall on whole steps: half a step is no difference.
+        time - since >= rule.for_s - 0.5 * self.plan.units.dt_s
+    }
+
     fn line(&self, run: &dyn Run, fields: &Fields) -> String {
         let units = &self.plan.units;
         let speed = units.velocity_to_si(probes::max_speed(fields));
@@ -158,16 +186,16 @@ impl Driver<'_> {
         )
     }
 
-    fn finished(&self, run: &dyn Run, steady: bool) -> Finished {
-        let updates = run.fluid_cells() as f64 * run.step() as f64;
+    fn finished(&self, run: &dyn Run) -> Finished {
         Finished {
             steps: run.step(),
             time_s: self.plan.units.time_to_si(run.step() as f64),
             residual: self.residual,
-            steady,
+            steady: false,
+            arrested: false,
             wall_seconds: self.stepping,
             million_updates_per_second: if self.stepping > 0.0 {
-                1e-6 * updates / self.stepping
+                1e-6 * self.updates / self.stepping
             } else {
                 0.0
             },
@@ -188,7 +216,7 @@ impl Driver<'_> {
         summary.threads = self.options.threads.max(1);
         summary.wall_seconds = finished.wall_seconds;
         summary.million_updates_per_second = finished.million_updates_per_second;
-        summary.mass_residual = change;
+        summary.mass_residual = run.ledger().map_or(change, |ledger| ledger.mass_residual);
         summary.stopped = stopped;
         summary.write(&writer.path("summary.json")).map_err(RunError::Output)
     }

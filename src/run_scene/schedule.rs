@@ -11,20 +11,23 @@ pub(super) fn steps_until(time_s: f64, units: &Units) -> u64 {
     (units.time_to_lattice(time_s).round() as u64).max(1)
 }
 
-/// The three recurring events of a run and its end.
+/// The recurring events of a run and its end.
 pub(super) struct Schedule {
     pub end: u64,
     pub fields: Ticker,
     pub series: Ticker,
     pub steady: Ticker,
+    pub arrested: Ticker,
 }
 
 impl Schedule {
     pub fn new(scene: &Scene, units: &Units, end: u64) -> Self {
         let ticker = |cadence: Cadence| Ticker::new(cadence, units, end);
         let steady = scene.stop.steady.map(|steady| Cadence::EverySeconds(steady.check_every_s));
+        let arrested = scene.stop.arrested.map(|rule| Cadence::EverySeconds(rule.check_every_s));
         Self {
             end,
+            arrested: arrested.map_or(Ticker::never(), ticker),
             fields: scene.output.fields.map_or(Ticker::never(), ticker),
             series: ticker(scene.output.series.unwrap_or(Cadence::Count(DEFAULT_ROWS))),
             steady: steady.map_or(Ticker::never(), ticker),
@@ -33,7 +36,8 @@ impl Schedule {
 
     /// The next step after `now` at which anything is due.
     pub fn next(&self, now: u64) -> u64 {
-        let next = self.fields.next().min(self.series.next()).min(self.steady.next());
+        let checks = self.steady.next().min(self.arrested.next());
+        let next = self.fields.next().min(self.series.next()).min(checks);
         next.clamp(now + 1, self.end.max(now + 1))
     }
 }

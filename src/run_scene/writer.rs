@@ -3,30 +3,36 @@
 use std::path::{Path, PathBuf};
 
 use super::error::RunError;
-use super::probes::{PROFILE_COLUMNS, columns, profile, unyielded, values};
-use crate::geometry::Axis as Direction;
+use super::mesh::free_surface;
+use super::probes::{PROFILE_COLUMNS, SECTION_COLUMNS, Sampler, columns, is_fluid, profile, unyielded};
 use crate::output::csv::Series;
-use crate::output::picture::{self, Picture};
-use crate::output::plot::{Axis, Plot, Series as Curve};
 use crate::output::pvd::Collection;
-use crate::output::summary::{Extrema, Summary, hash};
-use crate::output::{OutputError, atomic, svg, vti};
+use crate::output::summary::{Extrema, Summary, SurfaceSummary, hash};
+use crate::output::{OutputError, vti, vtp};
 use crate::plan::Plan;
 use crate::scene::{Measure, Probe, Scene};
-use crate::solver::run::{Fields, Run};
+use crate::solver::run::{Fields, Ledger, Run};
 use crate::solver::setup::Setup;
-use crate::units::Units;
 
 /// Knows the folder and what has been written.
 pub(super) struct Writer<'a> {
     folder: PathBuf,
-    title: String,
-    units: Units,
-    setup: &'a Setup,
-    probes: Vec<Probe>,
-    series: Series,
+    pub(super) title: String,
+    pub(super) sampler: Sampler,
+    pub(super) setup: &'a Setup,
+    pub(super) probes: Vec<Probe>,
+    pub(super) series: Series,
+    pub(super) sections: Vec<Section>,
     collection: Collection,
+    surfaces: Collection,
     written: usize,
+}
+
+/// A section at one time, kept for the plot at the end.
+pub(super) struct Section {
+    pub probe: String,
+    pub time_s: f64,
+    pub rows: Vec<[f64; 7]>,
 }
 
 impl<'a> Writer<'a> {
@@ -46,11 +52,13 @@ impl<'a> Writer<'a> {
         Ok(Self {
             folder: folder.to_path_buf(),
             title: plan.numbers.title.clone(),
-            units: plan.units,
+            sampler: Sampler::new(scene, plan.units),
             setup: &plan.setup,
             series: Series::new(&header),
             probes,
+            sections: Vec::new(),
             collection: Collection::default(),
+            surfaces: Collection::default(),
             written: 0,
         })
     }
@@ -60,50 +68,74 @@ impl<'a> Writer<'a> {
         self.folder.join(name)
     }
 
+    fn time(&self, run: &dyn Run) -> f64 {
+        self.sampler.units.time_to_si(run.step() as f64)
+    }
+
     /// Adds a row to the time series.
     pub fn row(&mut self, run: &dyn Run, fields: &Fields) -> Result<(), RunError> {
-        let mut row = vec![self.units.time_to_si(run.step() as f64)];
+        let mut row = vec![self.time(run)];
         for probe in &self.probes {
-            row.extend(values(&probe.measure, run, fields, &self.units));
+            row.extend(self.sampler.values(&probe.measure, run, fields));
         }
         self.series.push(&row).map_err(RunError::Output)
     }
 
-    /// Writes one set of fields and profiles, and the series so far.
+    /// Writes one set of fields, surfaces, profiles and maps, and the series so far.
     pub fn fields(&mut self, run: &dyn Run, fields: &Fields) -> Result<(), RunError> {
-        let time = self.units.time_to_si(run.step() as f64);
-        let name = format!("fields_{:06}.vti", self.written);
-        self.image(&name, time, fields).map_err(RunError::Output)?;
-        self.collection.push(time, &name);
-        self.collection.write(&self.path("run.pvd")).map_err(RunError::Output)?;
-        for (name, along) in self.profiles() {
-            let mut table = Series::new(&PROFILE_COLUMNS);
-            for row in profile(along, self.setup, fields, &self.units) {
-                table.push(&row).map_err(RunError::Output)?;
-            }
-            let file = format!("profile_{name}_{:06}.csv", self.written);
-            table.write(&self.path(&file)).map_err(RunError::Output)?;
-        }
+        let time = self.time(run);
+        self.snapshot(time, fields).map_err(RunError::Output)?;
         self.written += 1;
         self.finish_series()
     }
 
-    fn profiles(&self) -> Vec<(String, Direction)> {
-        let along = |probe: &Probe| match probe.measure {
-            Measure::Profile { along } => Some((probe.name.clone(), along)),
-            _ => None,
-        };
-        self.probes.iter().filter_map(along).collect()
+    fn snapshot(&mut self, time: f64, fields: &Fields) -> Result<(), OutputError> {
+        let name = format!("fields_{:06}.vti", self.written);
+        self.image(&name, time, fields)?;
+        self.collection.push(time, &name);
+        self.collection.write(&self.path("run.pvd"))?;
+        if self.setup.free_surface.is_some() {
+            let name = format!("surface_{:06}.vtp", self.written);
+            let mesh = free_surface(self.setup, fields, &self.sampler.units);
+            vtp::write(&self.path(&name), &mesh, "velocity_m_per_s", time)?;
+            self.surfaces.push(time, &name);
+            self.surfaces.write(&self.path("surface.pvd"))?;
+        }
+        for probe in &self.probes {
+            let name = &probe.name;
+            let file = |kind: &str, end: &str| self.path(&format!("{kind}_{name}_{:06}.{end}", self.written));
+            match probe.measure {
+                Measure::Profile { along } => {
+                    let rows = profile(along, self.setup, fields, &self.sampler.units);
+                    table(&file("profile", "csv"), &PROFILE_COLUMNS, &rows)?;
+                }
+                Measure::SurfaceProfile { along, at_m, above_m } => {
+                    let rows = self.sampler.section(along, at_m, above_m, self.setup, fields);
+                    table(&file("section", "csv"), &SECTION_COLUMNS, &rows)?;
+                    self.sections.push(Section { probe: name.clone(), time_s: time, rows });
+                }
+                Measure::DepthMap { above_m } => {
+                    self.map(&file("depth", "vti"), time, fields, above_m)?;
+                }
+                _ => {}
+            }
+        }
+        Ok(())
     }
 
     fn image(&self, name: &str, time: f64, fields: &Fields) -> Result<(), OutputError> {
-        let units = &self.units;
-        let pressure: Vec<f64> = fields.density.iter().map(|&rho| units.pressure_of_density(rho)).collect();
+        let units = &self.sampler.units;
+        let fluid: Vec<bool> = (0..self.setup.cells()).map(|c| is_fluid(self.setup, fields, c)).collect();
+        let pressure: Vec<f64> = (fields.density.iter().zip(&fluid))
+            .map(|(&rho, &fluid)| if fluid { units.pressure_of_density(rho) } else { 0.0 })
+            .collect();
         let velocity: Vec<[f64; 3]> = fields.velocity.iter().map(|&u| units.velocities_to_si(u)).collect();
         let stress: Vec<[f64; 6]> =
             fields.stress.iter().map(|s| s.map(|component| units.stress_to_si(component))).collect();
         let rate: Vec<f64> = fields.shear_rate.iter().map(|&rate| units.rate_to_si(rate)).collect();
-        let plug: Vec<u8> = unyielded(self.setup, fields).into_iter().map(u8::from).collect();
+        let plug = unyielded(self.setup, fields);
+        let yielded: Vec<u8> = plug.iter().zip(&fluid).map(|(&p, &f)| u8::from(f && !p)).collect();
+        let plug: Vec<u8> = plug.into_iter().map(u8::from).collect();
         let solid: Vec<u8> = self.setup.solids.iter().map(|&s| u8::from(s != 0)).collect();
         let mut image = vti::Image::new(self.setup.extents, [0.0; 3], units.dx_m)
             .time(time)
@@ -112,6 +144,9 @@ impl<'a> Writer<'a> {
             .tensor("stress_pa", &stress)
             .scalar("shear_rate_per_s", &rate)
             .mask("unyielded", &plug);
+        if !fields.kind.is_empty() {
+            image = image.scalar("fill", &fields.fill).mask("kind", &fields.kind).mask("yielded", &yielded);
+        }
         if !solid.is_empty() {
             image = image.mask("solid", &solid);
         }
@@ -121,94 +156,41 @@ impl<'a> Writer<'a> {
         image.write(&self.path(name))
     }
 
+    /// Bed, depth and surface of all columns as an image of one layer.
+    fn map(&self, path: &Path, time: f64, fields: &Fields, above_m: Option<f64>) -> Result<(), OutputError> {
+        let upright = self.sampler.upright;
+        let units = &self.sampler.units;
+        let columns = upright.columns(self.setup, fields, units, above_m);
+        let depth: Vec<f64> = columns.iter().map(|column| column.depth).collect();
+        let bed: Vec<f64> = columns.iter().map(|column| column.bed).collect();
+        let surface: Vec<f64> = columns.iter().map(|column| upright.surface(column, above_m)).collect();
+        let mut extents = self.setup.extents;
+        extents[upright.up.index()] = 1;
+        vti::Image::new(extents, [0.0; 3], units.dx_m)
+            .time(time)
+            .scalar("depth_m", &depth)
+            .scalar("bed_m", &bed)
+            .scalar("surface_m", &surface)
+            .write(path)
+    }
+
     /// Writes the series so far.
     pub fn finish_series(&self) -> Result<(), RunError> {
         self.series.write(&self.path("series.csv")).map_err(RunError::Output)
     }
+}
 
-    /// Series and plots at the end.
-    pub fn finish(&self, fields: &Fields) -> Result<(), RunError> {
-        self.finish_series()?;
-        self.plots(fields).map_err(RunError::Output)
+fn table<const N: usize>(path: &Path, header: &[(&str, &str)], rows: &[[f64; N]]) -> Result<(), OutputError> {
+    let mut table = Series::new(header);
+    for row in rows {
+        table.push(row)?;
     }
-
-    fn plots(&self, fields: &Fields) -> Result<(), OutputError> {
-        for (column, about) in self.series.columns.iter().enumerate().skip(1) {
-            let points = self.series.rows.iter().map(|row| [row[0], row[column]]).collect();
-            let unit = if about.unit == "-" { "" } else { about.unit.as_str() };
-            let plot = Plot::new(&self.title, Axis::linear("time", "s"), Axis::linear(&about.name, unit))
-                .with(Curve::line(&about.name, points));
-            self.svg(&format!("series_{}.svg", about.name), &svg::draw(&plot)?)?;
-        }
-        for (name, along) in self.profiles() {
-            self.profile_plot(&name, along, fields)?;
-        }
-        self.speed_picture(fields)
-    }
-
-    fn profile_plot(&self, name: &str, along: Direction, fields: &Fields) -> Result<(), OutputError> {
-        let rows = profile(along, self.setup, fields, &self.units);
-        let x = Axis::linear(along.letter().to_string(), "m");
-        let mut plot = Plot::new(format!("{}: {name}", self.title), x, Axis::linear("velocity", "m/s"));
-        for (component, letter) in ["x", "y", "z"].iter().enumerate() {
-            let points: Vec<[f64; 2]> = rows.iter().map(|row| [row[0], row[1 + component]]).collect();
-            if points.iter().any(|point| point[1] != 0.0) || component == 0 {
-                plot = plot.with(Curve::line(format!("velocity {letter}"), points));
-            }
-        }
-        self.svg(&format!("profile_{name}.svg"), &svg::draw(&plot)?)
-    }
-
-    /// Speed in the middle plane normal to the shortest axis; not for columns and single cells.
-    fn speed_picture(&self, fields: &Fields) -> Result<(), OutputError> {
-        let extents = self.setup.extents;
-        let normal = Direction::ALL.into_iter().rev().min_by_key(|axis| extents[axis.index()]);
-        let normal = normal.unwrap_or(Direction::Z);
-        let [a, b] = normal.others();
-        if extents[a] < 2 || extents[b] < 2 {
-            return Ok(());
-        }
-        let mut cells = Vec::with_capacity(extents[a] * extents[b]);
-        for ib in 0..extents[b] {
-            for ia in 0..extents[a] {
-                let mut cell = [extents[normal.index()] / 2; 3];
-                (cell[a], cell[b]) = (ia, ib);
-                cells.push(self.setup.index(cell));
-            }
-        }
-        let speed = |c: &usize| {
-            let [x, y, z] = self.units.velocities_to_si(fields.velocity[*c]);
-            (x * x + y * y + z * z).sqrt()
-        };
-        let plug = unyielded(self.setup, fields);
-        let has_plug = plug.iter().any(|p| *p);
-        let picture = Picture {
-            title: self.title.clone(),
-            label: "speed".to_owned(),
-            unit: "m/s".to_owned(),
-            extents: [extents[a], extents[b]],
-            spacing: self.units.dx_m,
-            length_unit: "m".to_owned(),
-            axes: [a, b].map(|axis| Direction::ALL[axis].letter().to_string()),
-            values: cells.iter().map(speed).collect(),
-            solid: if self.setup.solids.is_empty() {
-                Vec::new()
-            } else {
-                cells.iter().map(|&c| self.setup.is_solid(c)).collect()
-            },
-            unyielded: if has_plug { cells.iter().map(|&c| plug[c]).collect() } else { Vec::new() },
-        };
-        self.svg("speed.svg", &picture::draw(&picture)?)
-    }
-
-    fn svg(&self, name: &str, text: &str) -> Result<(), OutputError> {
-        atomic::write(&self.folder.join("plots").join(name), text.as_bytes())
-    }
+    table.write(path)
 }
 
 /// The summary of a run; the caller fills in what only it knows.
 pub(super) fn summary(scene: &Scene, plan: &Plan, run: &dyn Run, fields: &Fields) -> Summary {
-    let fluid = |c: &usize| !plan.setup.is_solid(*c);
+    let fluid = |c: &usize| is_fluid(&plan.setup, fields, *c);
     let cells = 0..plan.setup.cells();
     let speed = |c: usize| {
         let [x, y, z] = plan.units.velocities_to_si(fields.velocity[c]);
@@ -229,6 +211,32 @@ pub(super) fn summary(scene: &Scene, plan: &Plan, run: &dyn Run, fields: &Fields
         density: Extrema::of(cells.clone().filter(fluid).map(|c| fields.density[c])),
         speed_m_per_s: Extrema::of(cells.filter(fluid).map(speed)),
         fingerprint: run.fingerprint(),
+        free_surface: run.ledger().map(|ledger| surface_summary(plan, &ledger)),
         stopped: None,
+    }
+}
+
+fn surface_summary(plan: &Plan, ledger: &Ledger) -> SurfaceSummary {
+    let units = &plan.units;
+    let mass = units.rho0_kg_per_m3 * units.dx_m * units.dx_m * units.dx_m;
+    let momentum = mass * units.velocity_unit();
+    let vector = |v: [f64; 3]| v.map(|component| component * momentum);
+    SurfaceSummary {
+        initial_mass_kg: ledger.initial_mass * mass,
+        mass_kg: ledger.mass * mass,
+        outflow_kg: ledger.outflow * mass,
+        from_walls_kg: ledger.from_walls * mass,
+        parked_kg: ledger.parked * mass,
+        mass_residual: ledger.mass_residual,
+        momentum_n_s: vector(ledger.momentum),
+        from_force_n_s: vector(ledger.from_force),
+        from_faces_n_s: vector(ledger.from_faces),
+        from_solids_n_s: vector(ledger.from_solids),
+        from_gas_n_s: vector(ledger.from_gas),
+        from_conversions_n_s: vector(ledger.from_conversions),
+        momentum_residual_n_s: ledger.momentum_residual * momentum,
+        liquid_cells: ledger.liquid_cells,
+        interface_cells: ledger.interface_cells,
+        conversions: ledger.conversions,
     }
 }

@@ -68,4 +68,7 @@ pub enum Boundary {
     },
     /// Mirror plane: no normal flow, no shear stress.
     FreeSlip,
+    /// Open to the air: fluid that arrives leaves the box and is booked, nothing comes in. Only with a
+    /// free surface.
+    Open,
 }

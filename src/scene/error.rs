@@ -140,6 +140,42 @@ pub enum SceneProblem {
         "found {corners} corners enclosing {area} m²\n  allowed: at least 3 corners around a positive area\n  way out: add corners that are not on one line"
     )]
     FlatPolygon { corners: usize, area: f64 },
+    /// A combination of no shapes.
+    #[error("found no shape\n  allowed: at least one\n  way out: add a shape, or remove the combination")]
+    NoPart,
+    /// Rows of different lengths.
+    #[error(
+        "found {rows} rows, the first of {first} heights and another of {other}\n  allowed: at least one row, all of the same length of at least 1\n  way out: complete the rows"
+    )]
+    UnevenRows { rows: usize, first: usize, other: usize },
+    /// An initial fluid without any shape.
+    #[error(
+        "found neither `fill_level` nor `shapes`\n  allowed: at least one of them; together they are the fluid at time 0\n  way out: add one, or leave out `initial` for fluid everywhere"
+    )]
+    EmptyInitial,
+    /// A level without a direction.
+    #[error(
+        "the level has no axis, and there is no gravity to give one\n  allowed: levels with an axis\n  way out: add `\"axis\": \"z\"`, or gravity"
+    )]
+    LevelWithoutAxis,
+    /// Only with a free surface.
+    #[error(
+        "{what} needs a free surface, but fluid fills the whole box\n  allowed: only with `fluid.initial`\n  way out: say with `fluid.initial` where the fluid is at time 0, or {otherwise}"
+    )]
+    NeedsSurface { what: &'static str, otherwise: &'static str },
+    /// Not with a free surface.
+    #[error(
+        "{what} cannot be had together with a free surface\n  allowed: {allowed}\n  way out: leave it out, or leave out `fluid.initial`"
+    )]
+    NotWithSurface { what: &'static str, allowed: &'static str },
+    /// A section along the normal of the bed.
+    #[error(
+        "found {axis}, the axis normal to the bed\n  allowed: one of the two others; depth is measured along the normal\n  way out: the axis along which the fluid flows"
+    )]
+    AcrossBed { axis: char },
+    /// A name of no solid.
+    #[error("no solid is named `{name}`{}\n  allowed: {}\n  way out: {}", did_you_mean(.nearest.as_ref()), if .solids.is_empty() { "names of `solids`; there is none".to_owned() } else { list(.solids) }, rename_or_add(.nearest.as_ref()))]
+    UnknownSolid { name: String, nearest: Option<String>, solids: Vec<String> },
     /// Outside the box.
     #[error(
         "axis {axis}: found {low} m to {high} m\n  allowed: something between 0 m and {size} m, the box\n  way out: move it into the box, or remove it"
@@ -196,6 +232,10 @@ fn did_you_mean(nearest: Option<&String>) -> String {
 
 fn rename_or_remove(nearest: Option<&String>) -> String {
     nearest.map_or_else(|| "remove it".to_owned(), |name| format!("rename it to `{name}`"))
+}
+
+fn rename_or_add(nearest: Option<&String>) -> String {
+    nearest.map_or_else(|| "name one of `solids`".to_owned(), |name| format!("write `{name}`"))
 }
 
 fn choose(nearest: Option<&String>, allowed: &[String]) -> String {

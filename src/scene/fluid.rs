@@ -19,6 +19,58 @@ pub struct Fluid {
     /// Velocity at time 0.
     #[serde(default)]
     pub initial_velocity: InitialVelocity,
+    /// Where the fluid is at time 0; the rest of the box is air, and the surface between them is free.
+    /// Without it fluid fills the whole box.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial: Option<InitialFluid>,
+}
+
+/// Where the fluid is at time 0: below the level or inside one of the shapes, and not inside a solid.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InitialFluid {
+    /// Everything below a level.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fill_level: Option<FillLevel>,
+    /// Everything inside any of these.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shapes: Vec<FluidShape>,
+    /// Pressure at time 0.
+    #[serde(default)]
+    pub pressure: InitialPressure,
+}
+
+/// Pressure at time 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum InitialPressure {
+    /// That of the fluid at rest below its surface.
+    #[default]
+    Hydrostatic,
+    /// That of the air: for fluid that falls freely from the start.
+    Uniform,
+}
+
+/// Fluid up to a level.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FillLevel {
+    /// Position of the surface on the axis, m; fluid is on the side towards which gravity pulls.
+    pub height_m: f64,
+    /// The axis normal to the surface; the one along which gravity is strongest when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<Axis>,
+}
+
+/// A part of the fluid at time 0.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FluidShape {
+    /// Name, for messages.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Where it is.
+    pub shape: Shape,
 }
 
 /// Shear stress magnitude σ as a function of the shear rate γ̇.

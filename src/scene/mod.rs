@@ -13,12 +13,17 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::Axis;
+
 pub use domain::{Boundaries, Boundary, Domain, FACE_KEYS};
 pub use error::{Located, SceneError, SceneProblem};
-pub use fluid::{BodyForce, Fluid, Gravity, InitialVelocity, Layer, Rheology, Solid};
+pub use fluid::{
+    BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialPressure, InitialVelocity, Layer,
+    Rheology, Solid,
+};
 pub use numerics::{
-    Cadence, ClampLimits, Collision, Measure, Numerics, Operator, Output, Probe, Steady, Stop, WallChoice,
-    YieldChoice,
+    Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Measure, Numerics, Operator, Output, Probe,
+    RefillChoice, Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
 
 /// One experiment.
@@ -58,6 +63,17 @@ pub struct Scene {
     /// Name of the file it came from, for messages.
     #[serde(skip)]
     pub file: String,
+}
+
+impl Scene {
+    /// The axis along which gravity and body force are strongest (z before y before x), normal to beds and
+    /// levels; `None` without a force.
+    #[must_use]
+    pub fn up_axis(&self) -> Option<Axis> {
+        let force = crate::plan::extreme_forces(&crate::plan::total_force(self));
+        let pulls = force.iter().flatten().any(|f| *f != 0.0);
+        pulls.then(|| crate::plan::surface::up(self).0)
+    }
 }
 
 /// Reads and checks a scene file.

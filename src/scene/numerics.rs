@@ -21,6 +21,9 @@ pub struct Numerics {
     /// Source in the third moments (experimental).
     #[serde(default)]
     pub stress_source: bool,
+    /// Rules of the free surface; only with `fluid.initial`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub free_surface: Option<SurfaceRules>,
     /// Time step, s. At most one of `time_step_s`, `relaxation_time`, `target_mach`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time_step_s: Option<f64>,
@@ -33,6 +36,64 @@ pub struct Numerics {
     /// Expected largest velocity, m/s; estimated when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference_velocity_m_per_s: Option<f64>,
+}
+
+/// Rules of the free surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceRules {
+    /// How gravity and body force act in partly filled cells.
+    #[serde(default)]
+    pub gravity: SurfaceGravity,
+    /// What a cell that becomes partly filled starts from.
+    #[serde(default)]
+    pub refill: RefillChoice,
+    /// Which neighbours take the mass that a cell leaves over when it fills or empties.
+    #[serde(default)]
+    pub excess: ExcessChoice,
+    /// ε: a cell is full above (1 + ε) of its density and empty below −ε of it, no unit; 0.01 when not
+    /// given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fill_margin: Option<f64>,
+    /// η: the same margin, measured inwards, for cells that touch no air or no full cell, no unit; 0.1
+    /// when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lonely_margin: Option<f64>,
+}
+
+/// How gravity and body force act in partly filled cells.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum SurfaceGravity {
+    /// As if they were full.
+    Full,
+    /// In proportion to their fill: exact rest at any level.
+    #[default]
+    ByFill,
+    /// In proportion to their fill, and the rest accelerates with the liquid: for fluid that falls freely.
+    ByFillAndInertia,
+}
+
+/// What a cell that becomes partly filled starts from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum RefillChoice {
+    /// Equilibrium at the mean density and velocity of its neighbours.
+    #[default]
+    Equilibrium,
+    /// The same with the mean stress of its neighbours.
+    WithStress,
+}
+
+/// Which neighbours take the mass that a cell leaves over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum ExcessChoice {
+    /// All partly filled ones in equal parts.
+    #[default]
+    Even,
+    /// The partly filled ones in proportion to how far they lie along the normal of the surface.
+    AlongNormal,
 }
 
 /// Collision operator and the parameters of its odd relaxation rate.
@@ -120,6 +181,22 @@ pub struct Stop {
     /// End earlier when nothing changes any more.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steady: Option<Steady>,
+    /// End earlier when the fluid has come to rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arrested: Option<Arrested>,
+}
+
+/// At rest when the largest speed, each cell's times its fill, stays below a limit at every check of a
+/// stretch of time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Arrested {
+    /// The limit, m/s.
+    pub speed_m_per_s: f64,
+    /// How long it must stay below, s.
+    pub for_s: f64,
+    /// Time between checks, s.
+    pub check_every_s: f64,
 }
 
 /// Steady when the largest change of velocity over one check interval, divided by the largest
@@ -169,8 +246,8 @@ pub struct Probe {
     pub measure: Measure,
 }
 
-/// What a probe measures.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// What a probe measures. Gas cells never count.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Measure {
     /// Velocity of the cell that holds a point, m/s.
@@ -199,4 +276,74 @@ pub enum Measure {
         /// Position of the plane on that axis, m: the layer of cells that holds it.
         at_m: f64,
     },
+    /// Fraction of the fluid cells that are yielded, no unit: one less `plug_fraction`.
+    YieldedFraction,
+    /// Volume of the fluid, m³, from the fill of the cells.
+    Volume,
+    /// Farthest position along an axis at which the flow is deeper than a threshold, m; depth is the fill
+    /// of a column normal to the bed, and the position is interpolated between columns. The box edge, or
+    /// `from_m`, when no column is deep enough.
+    Front {
+        /// The axis the front moves along, towards larger coordinates.
+        along: Axis,
+        /// Depth that counts as flow, m.
+        threshold_m: f64,
+        /// Columns before this position do not count, m.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        from_m: Option<f64>,
+        /// Only fluid above this height counts, m: the top of an erodible bed.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        above_m: Option<f64>,
+    },
+    /// Bed, depth, surface and mean velocity of the columns of a section along an axis, written with
+    /// every set of fields.
+    SurfaceProfile {
+        /// The axis the section runs along.
+        along: Axis,
+        /// Where the section is on the third axis, m; the middle when not given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        at_m: Option<f64>,
+        /// Only fluid above this height counts, m.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        above_m: Option<f64>,
+    },
+    /// Depth and surface height of all columns, written with every set of fields as an image of one layer.
+    DepthMap {
+        /// Only fluid above this height counts, m.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        above_m: Option<f64>,
+    },
+    /// Mean velocity of the fluid inside a box, m/s, and the volume of that fluid, m³ (004 Eq 5.4; its
+    /// mean over the whole window is the product of the two over the volume of the window).
+    WindowVelocity {
+        /// Low corner, m.
+        min_m: [f64; 3],
+        /// High corner, m.
+        max_m: [f64; 3],
+    },
+    /// Force on a solid, N, its impulse since time 0, N s, and the wetted area of its faces by axis and
+    /// side, m², by momentum exchange; the pressure of the air counts as 0.
+    Force {
+        /// Name of the solid.
+        solid: String,
+    },
+    /// Mass, kg, and what became of it: relative residual of the ledger, outflow and parked excess, kg,
+    /// momentum residual, N s, and the number of cells that changed kind.
+    Ledger,
+}
+
+impl Measure {
+    /// Whether it only exists with a free surface.
+    #[must_use]
+    pub fn needs_surface(&self) -> bool {
+        matches!(
+            self,
+            Self::Volume
+                | Self::Front { .. }
+                | Self::SurfaceProfile { .. }
+                | Self::DepthMap { .. }
+                | Self::Ledger
+                | Self::Force { .. }
+        )
+    }
 }

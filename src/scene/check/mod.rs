@@ -4,6 +4,7 @@ mod domain;
 mod fluid;
 mod numerics;
 mod output;
+mod surface;
 
 use super::{Scene, SceneError, SceneProblem};
 use crate::geometry::{Axis, Shape};
@@ -16,6 +17,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
         fluid::check_gravity(&at, gravity)?;
     }
     fluid::check_fluid(&at, scene)?;
+    surface::check(&at, scene)?;
     fluid::check_layers(&at, scene)?;
     fluid::check_solids(&at, scene)?;
     numerics::check_numerics(&at, &scene.numerics)?;
@@ -86,9 +88,8 @@ impl Checker<'_> {
                 }
             }
             Shape::Cylinder { direction, radius_m, length_m, .. } => {
-                self.ensure(*direction != [0.0; 3], &format!("{path}.cylinder.direction"), || {
-                    SceneProblem::ZeroVector { way_out: "[1, 0, 0] for a cylinder along x" }
-                })?;
+                let along = format!("{path}.cylinder.direction");
+                self.direction(&along, *direction, "[1, 0, 0] for a cylinder along x")?;
                 self.radius(&format!("{path}.cylinder.radius_m"), *radius_m)?;
                 if let Some(length) = length_m {
                     let path = format!("{path}.cylinder.length_m");
@@ -110,8 +111,75 @@ impl Checker<'_> {
                     })?;
                 }
             }
+            _ => {}
         }
+        self.more_shapes(path, shape, size_m)?;
         if inverted { Ok(()) } else { self.reaches_box(path, shape, size_m) }
+    }
+
+    /// Cones, half-spaces, terrain and combinations.
+    fn more_shapes(&self, path: &str, shape: &Shape, size_m: [f64; 3]) -> Result<(), SceneError> {
+        let parts = |key: &str, parts: &[Shape], inverted| {
+            let path = format!("{path}.{key}");
+            self.ensure(!parts.is_empty(), &path, || SceneProblem::NoPart)?;
+            let mut each = parts.iter().enumerate();
+            each.try_for_each(|(i, part)| self.shape(&format!("{path}[{i}]"), part, size_m, inverted))
+        };
+        match shape {
+            Shape::Cone { direction, height_m, base_radius_m, top_radius_m, .. } => {
+                let path = format!("{path}.cone");
+                self.direction(
+                    &format!("{path}.direction"),
+                    *direction,
+                    "[0, 0, 1] for a cone that stands on z",
+                )?;
+                let way_out = "a height of at least one cell";
+                self.positive(&format!("{path}.height_m"), *height_m, "m", EMPTY, way_out)?;
+                let way_out = "0 for a tip";
+                let because = "it is a radius";
+                self.not_negative(&format!("{path}.base_radius_m"), *base_radius_m, "m", because, way_out)?;
+                self.not_negative(&format!("{path}.top_radius_m"), *top_radius_m, "m", because, way_out)?;
+                let greatest = base_radius_m + top_radius_m;
+                self.radius(&format!("{path}.base_radius_m"), greatest)
+            }
+            Shape::HalfSpace { normal, .. } => {
+                let path = format!("{path}.half_space.normal");
+                self.direction(&path, *normal, "[0, 0, 1] for everything below a level")
+            }
+            Shape::Heightfield(field) => {
+                let path = format!("{path}.heightfield");
+                let way_out = "the distance between two heights";
+                self.positive(
+                    &format!("{path}.spacing_m"),
+                    field.spacing_m,
+                    "m",
+                    "it is a distance",
+                    way_out,
+                )?;
+                let rows: Vec<usize> = field.heights_m.iter().map(Vec::len).collect();
+                let first = rows.first().copied().unwrap_or(0);
+                let even = first > 0 && rows.iter().all(|&n| n == first);
+                self.ensure(even, &format!("{path}.heights_m"), || SceneProblem::UnevenRows {
+                    rows: rows.len(),
+                    first,
+                    other: rows.iter().copied().find(|&n| n != first).unwrap_or(0),
+                })
+            }
+            Shape::Union(shapes) => parts("union", shapes, false),
+            // Parts may reach beyond the box; what they have in common may not be outside.
+            Shape::Intersection(shapes) => parts("intersection", shapes, true),
+            Shape::Difference { from, minus } => {
+                self.shape(&format!("{path}.difference.from"), from, size_m, false)?;
+                parts("difference.minus", minus, true)
+            }
+            Shape::Box { .. } | Shape::Cylinder { .. } | Shape::Sphere { .. } | Shape::Polygon { .. } => {
+                Ok(())
+            }
+        }
+    }
+
+    fn direction(&self, path: &str, direction: [f64; 3], way_out: &'static str) -> Result<(), SceneError> {
+        self.ensure(direction != [0.0; 3], path, || SceneProblem::ZeroVector { way_out })
     }
 
     fn radius(&self, path: &str, radius: f64) -> Result<(), SceneError> {

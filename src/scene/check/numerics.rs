@@ -136,5 +136,15 @@ pub(super) fn check_stop(at: &Checker, stop: &Stop) -> Result<(), SceneError> {
         let end = stop.end_time_s;
         at.ensure(every <= end, path, || SceneProblem::BeyondEnd { found: every, end })?;
     }
+    if let Some(arrested) = stop.arrested {
+        let path = |key: &str| format!("stop.arrested.{key}");
+        let way_out = "a thousandth of the speed of the flow";
+        at.positive(&path("speed_m_per_s"), arrested.speed_m_per_s, "m/s", "it is a speed", way_out)?;
+        let end = stop.end_time_s;
+        for (key, found) in [("for_s", arrested.for_s), ("check_every_s", arrested.check_every_s)] {
+            at.positive(&path(key), found, "s", "it is an interval", "a hundredth of `stop.end_time_s`")?;
+            at.ensure(found <= end, &path(key), || SceneProblem::BeyondEnd { found, end })?;
+        }
+    }
     Ok(())
 }

@@ -1,0 +1,196 @@
+//! Plots and pictures of a run.
+
+use super::error::RunError;
+use super::probes::{PROFILE_COLUMNS, SECTION_COLUMNS, columns, is_fluid, profile, unyielded};
+use super::writer::Writer;
+use crate::geometry::Axis as Direction;
+use crate::output::picture::{self, Picture};
+use crate::output::plot::{Axis, Plot, Series as Curve};
+use crate::output::{OutputError, atomic, svg};
+use crate::scene::Measure;
+use crate::solver::run::Fields;
+use crate::solver::setup::Face;
+
+/// Most curves of a section at different times.
+const CURVES: usize = 6;
+
+impl Writer<'_> {
+    /// Series and plots at the end.
+    pub fn finish(&self, fields: &Fields) -> Result<(), RunError> {
+        self.finish_series()?;
+        self.plots(fields).map_err(RunError::Output)
+    }
+
+    fn plots(&self, fields: &Fields) -> Result<(), OutputError> {
+        let mut column = 1;
+        for probe in &self.probes {
+            let count = columns(probe).len();
+            if matches!(probe.measure, Measure::Force { .. }) {
+                for (what, range) in [("force", 0..3), ("impulse", 3..6), ("wetted_area", 6..12)] {
+                    let range = column + range.start..column + range.end;
+                    self.series_plot(&format!("{what}_{}", probe.name), range)?;
+                }
+            } else {
+                for column in column..column + count {
+                    let name = format!("series_{}", self.series.columns[column].name);
+                    self.series_plot(&name, column..column + 1)?;
+                }
+            }
+            column += count;
+            match probe.measure {
+                Measure::Profile { along } => self.profile_plot(&probe.name, along, fields)?,
+                Measure::SurfaceProfile { along, .. } => self.section_plot(&probe.name, along)?,
+                Measure::DepthMap { above_m } => {
+                    self.depth_picture(&format!("depth_{}", probe.name), fields, above_m)?;
+                }
+                _ => {}
+            }
+        }
+        self.speed_picture(fields)?;
+        let [a, b] = self.sampler.upright.across();
+        let wide = self.setup.extents[a] > 1 && self.setup.extents[b] > 1;
+        if wide && self.setup.free_surface.is_some() {
+            self.depth_picture("depth", fields, None)?;
+        }
+        Ok(())
+    }
+
+    /// Columns of the time series in one plot; those that are zero throughout only when alone.
+    fn series_plot(&self, file: &str, range: std::ops::Range<usize>) -> Result<(), OutputError> {
+        let alone = range.len() == 1;
+        let first = &self.series.columns[range.start];
+        let unit = if first.unit == "-" { "" } else { first.unit.as_str() };
+        let label = if alone { first.name.as_str() } else { file };
+        let mut plot = Plot::new(&self.title, Axis::linear("time", "s"), Axis::linear(label, unit));
+        for column in range {
+            let points: Vec<[f64; 2]> = self.series.rows.iter().map(|row| [row[0], row[column]]).collect();
+            if alone || points.iter().any(|point| point[1] != 0.0) {
+                plot = plot.with(Curve::line(&self.series.columns[column].name, points));
+            }
+        }
+        self.svg(&format!("{file}.svg"), &svg::draw(&plot)?)
+    }
+
+    fn profile_plot(&self, name: &str, along: Direction, fields: &Fields) -> Result<(), OutputError> {
+        debug_assert_eq!(PROFILE_COLUMNS[1].0, "velocity_x");
+        let rows = profile(along, self.setup, fields, &self.sampler.units);
+        let x = Axis::linear(along.letter().to_string(), "m");
+        let mut plot = Plot::new(format!("{}: {name}", self.title), x, Axis::linear("velocity", "m/s"));
+        for (component, letter) in ["x", "y", "z"].iter().enumerate() {
+            let points: Vec<[f64; 2]> = rows.iter().map(|row| [row[0], row[1 + component]]).collect();
+            if points.iter().any(|point| point[1] != 0.0) || component == 0 {
+                plot = plot.with(Curve::line(format!("velocity {letter}"), points));
+            }
+        }
+        self.svg(&format!("profile_{name}.svg"), &svg::draw(&plot)?)
+    }
+
+    /// Bed and surface of a section at up to six of the times written.
+    fn section_plot(&self, name: &str, along: Direction) -> Result<(), OutputError> {
+        debug_assert_eq!((SECTION_COLUMNS[1].0, SECTION_COLUMNS[3].0), ("bed", "surface"));
+        let shots: Vec<_> = self.sections.iter().filter(|section| section.probe == name).collect();
+        let x = Axis::linear(along.letter().to_string(), "m");
+        let height = Axis::linear("height", "m");
+        let mut plot = Plot::new(format!("{}: {name}", self.title), x, height);
+        if let Some(first) = shots.first() {
+            let bed = first.rows.iter().map(|row| [row[0], row[1]]).collect();
+            plot = plot.with(Curve::reference("bed", bed));
+        }
+        let last = shots.len().saturating_sub(1);
+        let curves = CURVES.min(shots.len());
+        let chosen = (0..curves).map(|c| if curves > 1 { c * last / (curves - 1) } else { last });
+        for shot in chosen.map(|c| shots[c]) {
+            // Where there is no fluid the curve lies on the bed.
+            let points = shot.rows.iter().map(|row| [row[0], if row[2] > 0.0 { row[3] } else { row[1] }]);
+            plot = plot.with(Curve::line(format!("{:.4} s", shot.time_s), points.collect()));
+        }
+        self.svg(&format!("section_{name}.svg"), &svg::draw(&plot)?)
+    }
+
+    /// The plane that shows most: the middle one normal to the shortest axis; with a free surface an
+    /// upright one, and a mirror plane if there is one.
+    fn plane(&self) -> (Direction, usize) {
+        let n = self.setup.extents;
+        let upright =
+            |axis: &Direction| self.setup.free_surface.is_none() || *axis != self.sampler.upright.up;
+        let axes = Direction::ALL.into_iter().rev().filter(upright);
+        let normal = axes.min_by_key(|axis| n[axis.index()]).unwrap_or(Direction::Z);
+        let a = normal.index();
+        let at = match self.setup.faces[a] {
+            _ if self.setup.free_surface.is_none() => n[a] / 2,
+            [Face::FreeSlip, _] => 0,
+            [_, Face::FreeSlip] => n[a] - 1,
+            _ => n[a] / 2,
+        };
+        (normal, at)
+    }
+
+    /// Speed in one plane; not for columns and single cells.
+    fn speed_picture(&self, fields: &Fields) -> Result<(), OutputError> {
+        let extents = self.setup.extents;
+        let (normal, at) = self.plane();
+        let [a, b] = normal.others();
+        if extents[a] < 2 || extents[b] < 2 {
+            return Ok(());
+        }
+        let mut cells = Vec::with_capacity(extents[a] * extents[b]);
+        for ib in 0..extents[b] {
+            for ia in 0..extents[a] {
+                let mut cell = [at; 3];
+                (cell[a], cell[b]) = (ia, ib);
+                cells.push(self.setup.index(cell));
+            }
+        }
+        let speed = |c: &usize| {
+            // Air stays white.
+            if !self.setup.is_solid(*c) && !is_fluid(self.setup, fields, *c) {
+                return f64::NAN;
+            }
+            let [x, y, z] = self.sampler.units.velocities_to_si(fields.velocity[*c]);
+            (x * x + y * y + z * z).sqrt()
+        };
+        let plug = unyielded(self.setup, fields);
+        let has_plug = plug.iter().any(|p| *p);
+        let picture = Picture {
+            title: self.title.clone(),
+            label: "speed".to_owned(),
+            unit: "m/s".to_owned(),
+            extents: [extents[a], extents[b]],
+            spacing: self.sampler.units.dx_m,
+            length_unit: "m".to_owned(),
+            axes: [a, b].map(|axis| Direction::ALL[axis].letter().to_string()),
+            values: cells.iter().map(speed).collect(),
+            solid: if self.setup.solids.is_empty() {
+                Vec::new()
+            } else {
+                cells.iter().map(|&c| self.setup.is_solid(c)).collect()
+            },
+            unyielded: if has_plug { cells.iter().map(|&c| plug[c]).collect() } else { Vec::new() },
+        };
+        self.svg("speed.svg", &picture::draw(&picture)?)
+    }
+
+    /// Depth of all columns, seen from above.
+    fn depth_picture(&self, name: &str, fields: &Fields, above_m: Option<f64>) -> Result<(), OutputError> {
+        let [a, b] = self.sampler.upright.across();
+        let columns = self.sampler.upright.columns(self.setup, fields, &self.sampler.units, above_m);
+        let depth = columns.iter().map(|column| if column.depth > 0.0 { column.depth } else { f64::NAN });
+        let picture = Picture {
+            title: self.title.clone(),
+            label: "depth".to_owned(),
+            unit: "m".to_owned(),
+            extents: [a, b].map(|axis| self.setup.extents[axis]),
+            spacing: self.sampler.units.dx_m,
+            length_unit: "m".to_owned(),
+            axes: [a, b].map(|axis| Direction::ALL[axis].letter().to_string()),
+            values: depth.collect(),
+            solid: Vec::new(),
+            unyielded: Vec::new(),
+        };
+        self.svg(&format!("{name}.svg"), &picture::draw(&picture)?)
+    }
+
+    fn svg(&self, name: &str, text: &str) -> Result<(), OutputError> {
+        atomic::write(&self.path("plots").join(name), text.as_bytes())
+    }
+}
