@@ -29,27 +29,28 @@ impl Backend for Plain {
         crate::solver::check::check(setup)?;
         let treatment = setup.yielding;
         // The common laws and operators get a loop of their own; the others, and several fluids, share
-        // one that chooses per cell. The bits are the same either way, the speed is not.
+        // one that chooses per cell. The bits are the same either way, the speed is not. Below a free
+        // surface only the default operator has loops of its own: each costs build time.
         macro_rules! own_loop {
-            ($collision:expr) => {
+            ($collision:expr, $boxed:ident) => {
                 match setup.fluids.as_slice() {
                     &[Law::Newtonian { mu }] => {
-                        boxed(setup, standard(Newtonian { mu }, treatment, $collision))
+                        $boxed(setup, standard(Newtonian { mu }, treatment, $collision))
                     }
                     &[Law::Bingham { sigma0, mu }] => {
-                        boxed(setup, standard(Bingham { sigma0, mu }, treatment, $collision))
+                        $boxed(setup, standard(Bingham { sigma0, mu }, treatment, $collision))
                     }
                     &[Law::HerschelBulkley { sigma0, k, n }] => {
-                        boxed(setup, standard(HerschelBulkley::new(sigma0, k, n), treatment, $collision))
+                        $boxed(setup, standard(HerschelBulkley::new(sigma0, k, n), treatment, $collision))
                     }
                     _ => shared_loop(setup),
                 }
             };
         }
         match setup.collision {
-            CollisionChoice::Bgk => own_loop!(Bgk),
-            CollisionChoice::CentralMoment(odd) => own_loop!(CentralMoment { odd }),
-            CollisionChoice::Trt(_) | CollisionChoice::Regularised => shared_loop(setup),
+            CollisionChoice::Bgk if setup.free_surface.is_none() => own_loop!(Bgk, closed),
+            CollisionChoice::CentralMoment(odd) => own_loop!(CentralMoment { odd }, boxed),
+            _ => shared_loop(setup),
         }
     }
 }
@@ -67,6 +68,10 @@ fn shared_loop(setup: &Setup) -> Result<Box<dyn Run>, StartError> {
 fn boxed<P: Physics>(setup: &Setup, physics: P) -> Result<Box<dyn Run>, StartError> {
     match setup.free_surface {
         Some(_) => surface::boxed(setup, physics),
-        None => Ok(Box::new(PlainRun::start(setup, physics)?)),
+        None => closed(setup, physics),
     }
+}
+
+fn closed<P: Physics>(setup: &Setup, physics: P) -> Result<Box<dyn Run>, StartError> {
+    Ok(Box::new(PlainRun::start(setup, physics)?))
 }

@@ -4,6 +4,7 @@ use crate::verify::golden::Agreement;
 use crate::verify::study::Study;
 
 mod exhibits;
+mod mudflow;
 mod newtonian;
 mod slope;
 mod thesis;

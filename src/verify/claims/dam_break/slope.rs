@@ -108,7 +108,7 @@ const ONE: Tolerance = Tolerance {
 
 const MEASURES: &str = "front (3 mm above the bed) against the twin's, over what is allowed at that time";
 
-/// A claim on a run without a bed.
+/// A claim on the front itself.
 macro_rules! thesis_run {
     ($id:literal, $title:literal, $case:expr, $short:expr, $full:expr) => {
         Claim {
@@ -127,14 +127,6 @@ macro_rules! thesis_run {
     };
 }
 
-/// Run A.
-pub const RUN_A: Claim = thesis_run!(
-    "thesis-run-a",
-    "Run A of 004 (12 degrees): the front follows the depth-averaged twin.",
-    thesis::A,
-    &[6.0],
-    &[6.0, 60.0]
-);
 /// Runs C and G.
 pub const RUN_C: Claim = thesis_run!(
     "thesis-run-c",
@@ -154,8 +146,8 @@ fn run_out(backend: &dyn Backend, case: &Case, time: f64) -> Result<Sample, Veri
         .with("largest speed of liquid [mm/s]", 1e3 * seen[0].liquid_speed))
 }
 
-/// A claim on a run with a bed.
-macro_rules! erodible_run {
+/// A claim on the run-out.
+macro_rules! run_out_claim {
     ($id:literal, $title:literal, $case:expr, $short:expr, $full:expr) => {
         Claim {
             id: $id,
@@ -169,8 +161,9 @@ macro_rules! erodible_run {
             tolerance: Tolerance {
                 value: 0.1,
                 at: Rung::Every,
-                because: "hard case H20; the bed is one cell deep here, and lubrication theory sets the whole bed in \
-                          motion at once, ahead of the surge",
+                because: "hard case H20: 10 %. At 12 degrees the collapse from the gate is slower than without inertia and \
+                          longitudinal stress, and the flow catches up only algebraically; a bed is one cell deep \
+                          here, and lubrication theory sets all of it in motion ahead of the surge",
             },
             kind: Kind::Verification,
             measure: |backend, time| run_out(backend, &$case, time),
@@ -179,7 +172,7 @@ macro_rules! erodible_run {
 }
 
 /// Run E.
-pub const RUN_E: Claim = erodible_run!(
+pub const RUN_E: Claim = run_out_claim!(
     "thesis-run-e",
     "Run E of 004 (16 degrees, erodible bed of 6 mm from 0.7 m): run-out as the depth-averaged twin's.",
     thesis::E,
@@ -187,10 +180,18 @@ pub const RUN_E: Claim = erodible_run!(
     &[6.0, 30.0, 60.0]
 );
 /// Run H.
-pub const RUN_H: Claim = erodible_run!(
+pub const RUN_H: Claim = run_out_claim!(
     "thesis-run-h",
     "Run H of 004 (16 degrees, erodible bed of 6 mm from 0.9 m): run-out as the depth-averaged twin's.",
     thesis::H,
+    &[6.0],
+    &[6.0, 60.0]
+);
+/// Run A.
+pub const RUN_A: Claim = run_out_claim!(
+    "thesis-run-a",
+    "Run A of 004 (12 degrees): run-out as the depth-averaged twin's.",
+    thesis::A,
     &[6.0],
     &[6.0, 60.0]
 );
