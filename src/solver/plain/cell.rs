@@ -65,26 +65,36 @@ pub fn residual_force(
     })
 }
 
-/// What the viscosity-independent wall subtracts from the populations leaving a boundary cell that
-/// holds fluid number `fluid` \[B3\]; `sourced`: whether \[K6\] acts.
+/// What a wall correction depends on besides the state of its cell.
+#[derive(Clone, Copy, Debug)]
+pub struct Situation {
+    /// F − ∇p of the cell.
+    pub residual: [f64; 3],
+    /// Number of the fluid in it.
+    pub fluid: u8,
+    /// Whether \[K6\] acts.
+    pub sourced: bool,
+    /// Whether the curvature term is bounded, as below a free surface.
+    pub limited: bool,
+}
+
+/// What the viscosity-independent wall subtracts from the populations leaving a boundary cell \[B3\].
 #[inline(never)]
 pub fn wall_correction<P: Physics>(
     physics: &P,
     record: &BoundaryCell,
     h: &Cell,
     state: &State,
-    residual: &[f64; 3],
-    fluid: u8,
-    sourced: bool,
-    limited: bool,
+    situation: &Situation,
 ) -> Cell {
+    let Situation { residual, fluid, sourced, limited } = situation;
     let is_wall = |i: usize| matches!(record.sources[opposite(i)], Source::Wall { .. });
     let rho = state.m.rho;
     let odd_omega = physics.odd_omega(state.omega);
-    let fluidity = physics.tangent_fluidity(fluid, rho, state.omega, physics.stress_magnitude(&state.m));
+    let fluidity = physics.tangent_fluidity(*fluid, rho, state.omega, physics.stress_magnitude(&state.m));
     let local = local_curvature(state.omega, odd_omega);
     let mut excess = [0.0; Q];
-    if sourced {
+    if *sourced {
         add_stress_source(physics, &mut excess, state, residual);
     }
     let keep = (2.0 - odd_omega) - odd_omega * local;
@@ -95,7 +105,7 @@ pub fn wall_correction<P: Physics>(
     let mut correction = link_correction(&excess, is_wall);
     let along = tangential(residual, &record.normal);
     let mut curved = physics.curvature_velocity(&along, fluidity - 8.0 * local / rho);
-    if limited {
+    if *limited {
         let gamma_dot = shear_rate_of_omega(rho, state.omega, physics.stress_magnitude(&state.m));
         curved = limited_curvature(&curved, gamma_dot);
     }

@@ -101,16 +101,10 @@ impl<P: Physics> PlainRun<P> {
                 let residual = cell::residual_force(&self.f, &self.links, at, force, |_| true);
                 let fluid = self.setup.fluid_of_cell.get(at).copied().unwrap_or(0);
                 let state = self.state(at, force);
-                self.corrections[slot] = cell::wall_correction(
-                    &self.physics,
-                    record,
-                    &self.f[at],
-                    &state,
-                    &residual,
-                    fluid,
-                    self.setup.stress_source,
-                    false,
-                );
+                let sourced = self.setup.stress_source;
+                let situation = cell::Situation { residual, fluid, sourced, limited: false };
+                self.corrections[slot] =
+                    cell::wall_correction(&self.physics, record, &self.f[at], &state, &situation);
             }
         }
     }

@@ -110,16 +110,9 @@ impl<P: Physics> SurfaceRun<P> {
             let residual = cell::residual_force(&self.f, &self.links, at, &force, fluid);
             let state = self.state(at, &force);
             let sourced = self.setup.stress_source;
-            self.corrections[slot] = cell::wall_correction(
-                &self.physics,
-                record,
-                &self.f[at],
-                &state,
-                &residual,
-                0,
-                sourced,
-                true,
-            );
+            let situation = cell::Situation { residual, fluid: 0, sourced, limited: true };
+            self.corrections[slot] =
+                cell::wall_correction(&self.physics, record, &self.f[at], &state, &situation);
         }
     }
 

@@ -31,7 +31,7 @@ pub static STUDY: Study = Study {
         slope::RUN_E,
         slope::RUN_H,
     ],
-    exhibits: &[exhibits::RUNS, exhibits::TIME_STEP, exhibits::NEWTONIAN_HISTORY],
+    exhibits: &[exhibits::RUNS, exhibits::TIME_STEP, exhibits::NEWTONIAN_HISTORY, mudflow::WALL],
     mutants: &[],
     limits: &[],
     agreement: Agreement::Bits,
