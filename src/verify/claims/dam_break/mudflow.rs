@@ -127,7 +127,7 @@ fn follow(backend: &dyn Backend, plan: &Plan, end: f64) -> Result<History, Verif
 }
 
 fn wall(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
-    let spacings: &[f64] = if full { &[0.5, 1.0 / 3.0, 0.25] } else { &[0.5] };
+    let spacings: &[f64] = if full { &[1.0 / 3.0, 0.25, 0.2] } else { &[1.0 / 3.0] };
     let end = 20.0;
     let mut table = Table::new(
         "Impact on the wall",
