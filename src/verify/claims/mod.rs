@@ -2,6 +2,8 @@
 
 use super::study::Study;
 
+pub mod film;
+pub mod free_surface;
 pub mod moments;
 pub mod mutants_physics;
 pub mod poiseuille;
@@ -9,8 +11,15 @@ pub mod stability;
 pub mod unsteady;
 pub mod viscosity;
 
-static STUDIES: [&Study; 5] =
-    [&moments::STUDY, &viscosity::STUDY, &poiseuille::STUDY, &unsteady::STUDY, &stability::STUDY];
+static STUDIES: [&Study; 7] = [
+    &moments::STUDY,
+    &viscosity::STUDY,
+    &poiseuille::STUDY,
+    &unsteady::STUDY,
+    &stability::STUDY,
+    &free_surface::STUDY,
+    &film::STUDY,
+];
 
 /// All studies, in the order of the report.
 #[must_use]
