@@ -37,9 +37,12 @@ fn profiles(backend: &dyn Backend, _full: bool) -> Result<ExhibitData, VerifyErr
         };
         let film = sheet.exact();
         let unit = film.surface_velocity();
-        let marks = flow.velocity.iter().enumerate().map(|(k, u)| [u / unit, (k as f64 + 0.5) / depth]).collect();
-        let curve = (0..=64).map(|k| f64::from(k) / 64.0).map(|z| [film.velocity(z * depth) / unit, z]).collect();
-        plot = plot.with(Series::markers(name, marks)).with(Series::reference(format!("{name}, exact"), curve));
+        let marks =
+            flow.velocity.iter().enumerate().map(|(k, u)| [u / unit, (k as f64 + 0.5) / depth]).collect();
+        let curve =
+            (0..=64).map(|k| f64::from(k) / 64.0).map(|z| [film.velocity(z * depth) / unit, z]).collect();
+        plot =
+            plot.with(Series::markers(name, marks)).with(Series::reference(format!("{name}, exact"), curve));
     }
     Ok(ExhibitData { plots: vec![plot], ..ExhibitData::default() })
 }
@@ -56,11 +59,15 @@ pub const AGAINST_DEPTH: Exhibit = Exhibit {
 
 fn against_depth(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
     let depths: &[f64] = if full {
-        &[1.25, 1.5, 1.75, 2.0, 2.25, 2.5, 3.0, 3.5, 4.0, 4.5, 6.0, 6.5, 8.0, 8.5, 12.5, 16.0, 16.5, 32.0, 32.5]
+        &[
+            1.25, 1.5, 1.75, 2.0, 2.25, 2.5, 3.0, 3.5, 4.0, 4.5, 6.0, 6.5, 8.0, 8.5, 12.5, 16.0, 16.5, 32.0,
+            32.5,
+        ]
     } else {
         &[1.5, 2.0, 2.5, 3.0, 4.0, 4.5, 6.0, 8.0, 8.5]
     };
-    let mut table = Table::new("Error of q in per cent", &["H (cells)", "full", "by fill", "by fill and inertia"]);
+    let mut table =
+        Table::new("Error of q in per cent", &["H (cells)", "full", "by fill", "by fill and inertia"]);
     let rules = [
         ("full", SurfaceForce::Full),
         ("by fill", SurfaceForce::ByFill),

@@ -166,7 +166,14 @@ fn near_critical_table(backend: &dyn Backend, full: bool) -> Result<ExhibitData,
     };
     let mut table = Table::new(
         "Films just above the critical thickness",
-        &["h/h_c", "cells", "sheared layer (cells)", "exact u_s [m/s]", "u_s/exact", "drift in the last tenth"],
+        &[
+            "h/h_c",
+            "cells",
+            "sheared layer (cells)",
+            "exact u_s [m/s]",
+            "u_s/exact",
+            "drift in the last tenth",
+        ],
     );
     let mut plot = Plot::new(
         "Films near the critical thickness",

@@ -78,8 +78,11 @@ pub const FALLS: Claim = Claim {
     title: "Parked mass falls one cell every 16 steps and joins the fluid it meets",
     tags: &["F6"],
     measures: "steps until nothing is parked",
-    reference: Reference { source: "rule [F6]: it moves in the first step and every 16 steps after; the last move ends beside the surface, \
-                 which takes it in the same step", uncertainty: 0.0 },
+    reference: Reference {
+        source: "rule [F6]: it moves in the first step and every 16 steps after; the last move ends beside the surface, \
+                 which takes it in the same step",
+        uncertainty: 0.0,
+    },
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "cells of gas in between", short: &[3.0, 6.0], full: &[3.0, 6.0, 12.0] },
     order: None,
@@ -144,11 +147,7 @@ pub const CARRIED: Claim = Claim {
         uncertainty: 0.0,
     },
     metric: Metric::Relative,
-    ladder: Ladder {
-        parameter: "density of the fluid",
-        short: &[1.0, 1.02],
-        full: &[0.98, 1.0, 1.02, 1.05],
-    },
+    ladder: Ladder { parameter: "density of the fluid", short: &[1.0, 1.02], full: &[0.98, 1.0, 1.02, 1.05] },
     order: None,
     tolerance: Tolerance {
         value: 1e-6,

@@ -33,7 +33,8 @@ fn inside(at: [usize; 3], centre: [f64; 3], radius: f64) -> f64 {
     let mut count = 0;
     for s in 0..64 {
         let part = [s % 4, (s / 4) % 4, s / 16];
-        let d: [f64; 3] = std::array::from_fn(|a| at[a] as f64 + (f64::from(part[a]) + 0.5) / 4.0 - centre[a]);
+        let d: [f64; 3] =
+            std::array::from_fn(|a| at[a] as f64 + (f64::from(part[a]) + 0.5) / 4.0 - centre[a]);
         count += u32::from((d[0] * d[0] + d[1] * d[1]) + d[2] * d[2] < radius * radius);
     }
     f64::from(count) / 64.0
@@ -51,15 +52,27 @@ fn height(run: &dyn Run) -> f64 {
     moment / mass
 }
 
+/// Σφ over the number of cells that hold fluid.
+fn mass_per_cell(fill: &[f64]) -> f64 {
+    fill.iter().sum::<f64>() / fill.iter().filter(|fill| **fill > 0.0).count() as f64
+}
+
 /// Distance fallen against g t²/2.
-fn fall(backend: &dyn Backend, radius: f64, force: SurfaceForce) -> Result<Sample, VerifyError> {
-    let mut run = backend.start(&drop(radius, force))?;
+fn fall(
+    backend: &dyn Backend,
+    radius: f64,
+    force: SurfaceForce,
+    share: fn(&[f64]) -> f64,
+) -> Result<Sample, VerifyError> {
+    let setup = drop(radius, force);
+    let expected = setup.free_surface.as_ref().map_or(f64::NAN, |surface| share(&surface.fill));
+    let mut run = backend.start(&setup)?;
     let start = height(run.as_ref());
     run.advance(STEPS)?;
     let fallen = start - height(run.as_ref());
     let t = STEPS as f64;
     let end = ledger(run.as_ref());
-    Ok(Sample::relative(radius, fallen, 0.5 * GRAVITY * t * t)
+    Ok(Sample::relative(radius, fallen, expected * 0.5 * GRAVITY * t * t)
         .with("fallen/(g t²/2) − 1 [%]", 100.0 * (fallen / (0.5 * GRAVITY * t * t) - 1.0))
         .with("mass residual", end.mass_residual.abs())
         .with("conversions", end.conversions as f64))
@@ -79,9 +92,13 @@ pub const FULL: Claim = Claim {
     metric: Metric::Relative,
     ladder: LADDER,
     order: None,
-    tolerance: Tolerance { value: 0.02, at: Rung::Every, because: "to be measured" },
+    tolerance: Tolerance {
+        value: 0.02,
+        at: Rung::Every,
+        because: "the pattern of fills lags behind the flow (see `surface-pattern-carried`): the drop leaves some of its mass behind, 0.4/R² of the way",
+    },
     kind: Kind::Verification,
-    measure: |backend, radius| fall(backend, radius, SurfaceForce::Full),
+    measure: |backend, radius| fall(backend, radius, SurfaceForce::Full, |_| 1.0),
 };
 
 /// By fill and inertia.
@@ -94,22 +111,35 @@ pub const INERTIA: Claim = Claim {
     metric: Metric::Relative,
     ladder: LADDER,
     order: None,
-    tolerance: Tolerance { value: 0.02, at: Rung::Every, because: "to be measured" },
+    tolerance: Tolerance {
+        value: 0.04,
+        at: Rung::Every,
+        because: "as with full gravity, and the smoothed acceleration, 0 at the start, is late by 16 of the 566 steps for \
+                  the quarter of the inertia that is gas (R = 6): 1.4 %",
+    },
     kind: Kind::Verification,
-    measure: |backend, radius| fall(backend, radius, SurfaceForce::ByFillAndInertia),
+    measure: |backend, radius| fall(backend, radius, SurfaceForce::ByFillAndInertia, |_| 1.0),
 };
 
 /// By fill: too slow.
 pub const BY_FILL: Claim = Claim {
     id: "falling-drop-by-fill",
-    title: "With gravity by fill, the default, a drop falls too slowly by O(1/R)",
+    title: "With gravity by fill, the default, a drop falls too slowly: its surface cells have the inertia of full cells",
     tags: &["F1", "F3", "F4"],
     measures: MEASURES,
-    reference: SOURCE,
+    reference: Reference {
+        source: "(Σφ/number of fluid cells) g t²/2: a cell's populations weigh φ but have the inertia of a full cell",
+        uncertainty: 0.0,
+    },
     metric: Metric::Relative,
     ladder: LADDER,
     order: None,
-    tolerance: Tolerance { value: 0.3, at: Rung::Every, because: "to be measured" },
+    tolerance: Tolerance {
+        value: 0.1,
+        at: Rung::Every,
+        because: "the number of surface cells changes as the drop crosses the grid; part of the reflection at the gas \
+                  acts on it too",
+    },
     kind: Kind::PredictedFailure,
-    measure: |backend, radius| fall(backend, radius, SurfaceForce::ByFill),
+    measure: |backend, radius| fall(backend, radius, SurfaceForce::ByFill, mass_per_cell),
 };

@@ -27,8 +27,11 @@ pub static STUDY: Study = Study {
         pool::REST,
         pool::PRESSURE,
         pool::FLICKER,
-        tilted::POOL,
+        tilted::NEWTONIAN_POOL,
+        tilted::BINGHAM_POOL,
         heap::HEAP,
+        heap::ADVANCE,
+        heap::QUIET,
         drop::FULL,
         drop::INERTIA,
         drop::BY_FILL,
@@ -52,6 +55,18 @@ pub static STUDY: Study = Study {
         mutants::BEFORE_COLLISION,
         mutants::EXCESS_DROPPED,
     ],
-    limits: &[],
+    limits: &[
+        "Links between liquid and interface cells carry mass with their full weight, whatever the fill. A pattern of \
+         fills on a uniform flow is therefore carried at 5/6 of the flow, and the flux through a column with a surface \
+         cell of fill φ is too large by (1 − φ)/6 of a cell: first order in the spacing where the surface varies.",
+        "In a pool whose surface is oblique to the grid a current of order F/mu remains, up to 1.5e-4 of √(gH) at \
+         τ = 1.1 (10 degrees) and 5e-4 at τ = 0.56: above the aim of 1e-4. It does not grow. In Bingham fluid it is \
+         below 1e-5.",
+        "The force rule with inertia, made for free fall, lets a tilted pool of Bingham fluid speed up slowly: it is \
+         not for fluid at rest. Gravity by fill makes a drop fall too slowly by about 1.5/R.",
+        "The foot of a resting heap settles into the grid by up to a quarter of a cell; at 6 mm that is 1 mm within \
+         30 s, at 0.04 mm/s, then nothing. Mass-weighted, the fluid moves at 0.015 mm/s.",
+        "A parked mass falls at one cell in 16 steps whatever gravity is.",
+    ],
     agreement: Agreement::Bits,
 };
