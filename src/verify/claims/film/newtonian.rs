@@ -1,6 +1,6 @@
 //! The Newtonian film: exact in the liquid, second order in the discharge, thin films.
 
-use super::support::{Flow, SLOPE, Sheet};
+use super::support::{Flow, Sheet};
 use crate::rheology::Law;
 use crate::solver::run::Backend;
 use crate::solver::setup::SurfaceForce;
@@ -199,6 +199,7 @@ pub const FULL_GRAVITY: Claim = Claim {
 
 #[cfg(test)]
 mod tests {
+    use super::super::support::SLOPE;
     use super::*;
 
     #[test]

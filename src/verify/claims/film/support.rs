@@ -34,8 +34,6 @@ pub struct Flow {
     pub fill: Vec<f64>,
     /// Cells that changed kind.
     pub conversions: u64,
-    /// Steps taken.
-    pub steps: u64,
 }
 
 impl Flow {
@@ -103,6 +101,5 @@ pub fn flow(run: &dyn Run) -> Flow {
         velocity: (0..fields.fill.len()).filter(fluid).map(|cell| fields.velocity[cell][0]).collect(),
         fill: (0..fields.fill.len()).filter(fluid).map(|cell| fields.fill[cell]).collect(),
         conversions: run.ledger().map_or(0, |ledger| ledger.conversions),
-        steps: run.step(),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::support::{Dice, ledger, tank};
 use crate::rheology::Law;
-use crate::solver::run::{Backend, Ledger, Run};
+use crate::solver::run::{Backend, Ledger};
 use crate::solver::setup::{Face, Setup};
 use crate::verify::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 

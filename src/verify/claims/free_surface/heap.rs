@@ -218,13 +218,13 @@ pub const QUIET: Claim = Claim {
 /// A minute.
 pub const MINUTE: Exhibit = Exhibit {
     id: "heap-for-a-minute",
-    caption: "The same heap over 10 s (60 s at full size): front, speeds, kinetic energy and conversions.",
+    caption: "The same heap over 40 s (60 s at full size): front, speeds, kinetic energy and conversions.",
     timed: false,
     run: minute,
 };
 
 fn minute(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
-    let (spacings, marks): (&[f64], u32) = if full { (&[6.0, 3.0], 24) } else { (&[6.0], 4) };
+    let (spacings, marks): (&[f64], u32) = if full { (&[6.0, 3.0], 24) } else { (&[6.0], 16) };
     let mut table = Table::new(
         "A heap at rest",
         &[
