@@ -31,6 +31,12 @@
 //! | B1 | half-way walls | `boundary/bounce_back.rs` | `poiseuille-newtonian-bgk-slip` |
 //! | B2 | mirror planes | `boundary/links.rs` | `mirror-quarter-duct` |
 //! | B3 | viscosity-independent walls | `boundary/wall_slip.rs` | `poiseuille-newtonian-b3` |
+//! | F1 | mass exchange | `free_surface/exchange.rs` | `film-newtonian`, `surface-pattern-carried` |
+//! | F2 | gas links | `free_surface/exchange.rs` | `pool-at-rest` |
+//! | F3 | force in interface cells | `free_surface/force.rs` | `film-newtonian`, `falling-drop-by-fill` |
+//! | F4 | filling and emptying | `free_surface/marks.rs` | `dam-break-mass`, `flat-layer-without-flicker` |
+//! | F5 | ledger | `free_surface/ledger.rs` | `dam-break-mass`, `dam-break-momentum` |
+//! | F6 | drops, bubbles, single cells | `free_surface/marks.rs` | `isolated-cell`, `random-bubbles-and-drops` |
 
 pub mod boundary;
 pub mod collision;

@@ -3,19 +3,25 @@
 use super::study::Study;
 
 pub mod dam_break;
+pub mod film;
+pub mod free_surface;
 pub mod moments;
 pub mod mutants_physics;
 pub mod poiseuille;
+pub mod slump;
 pub mod stability;
 pub mod unsteady;
 pub mod viscosity;
 
-static STUDIES: [&Study; 6] = [
+static STUDIES: [&Study; 9] = [
     &moments::STUDY,
     &viscosity::STUDY,
     &poiseuille::STUDY,
     &unsteady::STUDY,
     &stability::STUDY,
+    &free_surface::STUDY,
+    &film::STUDY,
+    &slump::STUDY,
     &dam_break::STUDY,
 ];
 
