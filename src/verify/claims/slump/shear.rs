@@ -117,8 +117,8 @@ pub const TWIN: Claim = Claim {
     tolerance: Tolerance {
         value: 0.04,
         at: Rung::Every,
-        because: "lubrication leaves out the extensional stress of the plug; at rest, where it is known, that makes the \
-                  radius of gyration 3.2 % to 3.7 % smaller (next-order shape), and it cannot matter more before",
+        because: "lubrication leaves out the extensional stress of the plug, which holds the spread back from the start; at \
+                  rest, where it is known, it makes the radius of gyration 3.2 % to 3.7 % smaller (next-order shape)",
     },
     kind: Kind::Verification,
     measure: against_twin,
