@@ -14,7 +14,7 @@ use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
 pub const WALL: Exhibit = Exhibit {
     id: "mudflow-on-the-wall",
     caption: "Force of the 500 m3 mudflow of 001 on its retaining wall (whole wall, both halves of the mirror plane) \
-              on three grids. The peak is set against k A rho v^2 with the area actually wetted at the peak and the \
+              on three grids. The peak (a running mean over 0.5 s) is set against k A rho v^2 with the area wetted then and the \
               speed of the mud before the wall at impact: 001 quotes k = 2 to 5, and its 300-750 kN need 3 m2 \
               (ERRATA 43).",
     timed: false,
@@ -126,6 +126,25 @@ fn follow(backend: &dyn Backend, plan: &Plan, end: f64) -> Result<History, Verif
     })
 }
 
+/// Samples in half a second.
+const SMOOTHED: usize = 10;
+
+/// Running means over half a second. Single samples hold shocks: a tongue that hits the wall compresses
+/// at the lattice's speed of sound, which is some 60 m/s here and not the mud's.
+fn smoothed(moments: &[Moment]) -> Vec<Moment> {
+    let mean =
+        |part: &[Moment], of: &dyn Fn(&Moment) -> f64| part.iter().map(of).sum::<f64>() / part.len() as f64;
+    let windows = moments.windows(SMOOTHED);
+    windows
+        .map(|part| Moment {
+            time: mean(part, &|m| m.time),
+            force: mean(part, &|m| m.force),
+            area: mean(part, &|m| m.area),
+            speed: mean(part, &|m| m.speed),
+        })
+        .collect()
+}
+
 fn wall(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
     let spacings: &[f64] = if full { &[1.0 / 3.0, 0.25, 0.2] } else { &[1.0 / 3.0] };
     let end = 20.0;
@@ -135,9 +154,10 @@ fn wall(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
             "spacing [m]",
             "impact [s]",
             "speed at impact [m/s]",
-            "peak force [kN]",
+            "first contact, 0.05 s mean [kN]",
+            "peak, 0.5 s mean [kN]",
             "at [s]",
-            "area at peak [m2]",
+            "area then [m2]",
             "k = F/(A rho v2)",
             "force at 20 s [kN]",
             "impulse [kN s]",
@@ -150,7 +170,8 @@ fn wall(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
         let plan = planned(spacing)?;
         let history = follow(backend, &plan, end)?;
         let greater = |a: Moment, b: &Moment| if b.force > a.force { *b } else { a };
-        let peak = history.moments.iter().fold(Moment::default(), greater);
+        let shock = history.moments.iter().fold(Moment::default(), greater);
+        let peak = smoothed(&history.moments).iter().fold(Moment::default(), greater);
         let impact = history.moments.iter().position(|m| m.force > 0.02 * peak.force).unwrap_or(0);
         // Mud comes to rest at the wall: the speed of arrival is the largest in the second around impact.
         let around = &history.moments[impact.saturating_sub(10)..(impact + 10).min(history.moments.len())];
@@ -160,6 +181,7 @@ fn wall(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
             spacing.into(),
             history.moments[impact].time.into(),
             speed.into(),
+            (1e-3 * shock.force).into(),
             (1e-3 * peak.force).into(),
             peak.time.into(),
             peak.area.into(),
