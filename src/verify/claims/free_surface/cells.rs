@@ -10,7 +10,7 @@ const LAW: Law = Law::Newtonian { mu: 0.1 };
 
 /// 1: one interface cell; 2: with force; 3: a liquid and an interface cell; 4: with force.
 fn isolated(backend: &dyn Backend, case: f64) -> Result<Sample, VerifyError> {
-    let gravity = if case as u32 % 2 == 0 { 1e-5 } else { 0.0 };
+    let gravity = if (case as u32).is_multiple_of(2) { 1e-5 } else { 0.0 };
     let pair = case > 2.5;
     let setup = tank([8, 8, 8], LAW, gravity, |at| match at {
         [4, 4, 4] => 0.4,
