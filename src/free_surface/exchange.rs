@@ -15,7 +15,8 @@ use crate::lattice::{W, opposite};
 /// # Source
 /// 000 Eq 12, 001 Eq 11, 004 Eq 3.31; ERRATA 20 (fill, not mass), 21 (sum, not difference).
 /// # Verified by
-/// Claims `dam-break-mass`, `film-newtonian`; mutants `exchange-of-masses`, `exchange-of-differences`.
+/// Claims `surface-pattern-carried`, `dam-break-mass`; mutants `exchange-of-masses`,
+/// `exchange-of-differences`.
 #[inline(always)]
 #[must_use]
 pub fn wetted_share(neighbour: Kind, fill: f64, neighbour_fill: f64) -> f64 {

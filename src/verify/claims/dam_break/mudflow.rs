@@ -1,5 +1,6 @@
 //! The mudflow of 001 against its retaining wall, from the scene in `scenes/show`.
 
+use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use crate::output::plot::{Axis, Plot, Series};
@@ -166,9 +167,10 @@ fn wall(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
         ],
     );
     let mut plot = Plot::new("Force on the wall", Axis::linear("t", "s"), Axis::linear("F_x", "kN"));
-    for &spacing in spacings {
-        let plan = planned(spacing)?;
-        let history = follow(backend, &plan, end)?;
+    let histories: Vec<Result<History, VerifyError>> =
+        spacings.par_iter().map(|&spacing| follow(backend, &planned(spacing)?, end)).collect();
+    for (&spacing, history) in spacings.iter().zip(histories) {
+        let history = history?;
         let greater = |a: Moment, b: &Moment| if b.force > a.force { *b } else { a };
         let shock = history.moments.iter().fold(Moment::default(), greater);
         let peak = smoothed(&history.moments).iter().fold(Moment::default(), greater);

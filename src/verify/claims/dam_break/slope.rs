@@ -177,7 +177,7 @@ pub const RUN_E: Claim = run_out_claim!(
     "Run E of 004 (16 degrees, erodible bed of 6 mm from 0.7 m): run-out as the depth-averaged twin's.",
     thesis::E,
     &[6.0],
-    &[6.0, 30.0, 60.0]
+    &[6.0, 60.0]
 );
 /// Run H.
 pub const RUN_H: Claim = run_out_claim!(
