@@ -61,7 +61,8 @@ pub enum PlanProblem {
     TauTooLarge { tau: f64, dt: f64, limit: f64, operator: &'static str, because: &'static str, dt_max: f64 },
     /// Beyond the stability table.
     #[error(
-        "found a speed of {speed:.4} cells per step with {operator} at a relaxation time of {tau:.4}\n  allowed: at most {limit:.4}, the von Neumann limit [K5]\n  way out: a smaller time step, a larger viscosity, or `central_moment`"
+        "found a speed of {speed:.4} cells per step with {operator} at a relaxation time of {tau:.4}\n  allowed: at most {limit:.4}, the von Neumann limit [K5]\n  way out: {}",
+        calmer(operator)
     )]
     Unstable { speed: f64, limit: f64, tau: f64, operator: &'static str },
     /// Nothing says how fast the flow is.
@@ -88,4 +89,13 @@ pub enum PlanProblem {
 
 fn or_leave(given: bool) -> &'static str {
     if given { ", or leave `numerics` to `plan`" } else { "" }
+}
+
+/// Ways out of an unstable choice.
+fn calmer(operator: &str) -> &'static str {
+    if operator == "central_moment" {
+        "a finer `domain.spacing_m`, a larger viscosity, or a smaller time step if that brings the speed below the limit"
+    } else {
+        "a smaller time step, a larger viscosity, or `central_moment`"
+    }
 }

@@ -45,7 +45,7 @@ pub fn items(setup: &Setup) -> Vec<Item> {
         items.push(item("relaxation time of the previous step", 8));
     }
     if let Some(surface) = &setup.free_surface {
-        items.push(item("free surface: kind, mass, fill, velocity", SURFACE));
+        items.push(item("surface kind, mass, fill, velocity", SURFACE));
         items.push(item("fill and kind while writing", 9));
         if surface.force == SurfaceForce::ByFillAndInertia {
             items.push(item("acceleration in surface cells", INERTIA));

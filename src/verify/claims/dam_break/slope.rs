@@ -132,7 +132,7 @@ pub const RUN_C: Claim = thesis_run!(
     "thesis-run-c",
     "Runs C and G of 004 (16 degrees, no bed): the front follows the depth-averaged twin.",
     thesis::C,
-    &[6.0, 30.0],
+    &[6.0],
     &[6.0, 30.0, 60.0]
 );
 /// Error of the run-out from the gate, relative.
