@@ -48,25 +48,31 @@ pub trait Physics: Clone + Send + Sync + 'static {
         bounce_back::bounce_back(out, i, rho, u_wall)
     }
 
-    /// A: wetted share of a link \[F1\]. `masses`: m of the two cells, for the wrong form that uses them.
+    /// A: wetted share of a link \[F1\]. `masses()`: m of the two cells, for the wrong form that uses them.
     #[inline(always)]
-    fn wetted_share(&self, neighbour: Kind, fill: f64, neighbour_fill: f64, masses: [f64; 2]) -> f64 {
+    fn wetted_share(
+        &self,
+        neighbour: Kind,
+        fill: f64,
+        neighbour_fill: f64,
+        masses: impl Fn() -> [f64; 2],
+    ) -> f64 {
         let _ = masses;
         exchange::wetted_share(neighbour, fill, neighbour_fill)
     }
 
-    /// Δm of one link \[F1\]. `before`: the two populations before collision, for the wrong form that
-    /// uses them.
+    /// Δm of one link \[F1\]. `before()`: the two populations before collision, for the wrong form
+    /// that uses them.
     #[inline(always)]
-    fn link_mass(&self, share: f64, arriving: f64, leaving: f64, before: [f64; 2]) -> f64 {
+    fn link_mass(&self, share: f64, arriving: f64, leaving: f64, before: impl Fn() -> [f64; 2]) -> f64 {
         let _ = before;
         exchange::link_mass(share, arriving, leaving)
     }
 
-    /// Population that the gas sends back along −c_i \[F2\]. `behind`: what the cell at x − c_i sends
-    /// along c_i, for the wrong form that reconstructs there.
+    /// Population that the gas sends back along −c_i \[F2\]. `behind()`: what the cell at x − c_i
+    /// sends along c_i, for the wrong form that reconstructs there.
     #[inline(always)]
-    fn gas_link(&self, leaving: f64, i: usize, u: &[f64; 3], behind: f64) -> f64 {
+    fn gas_link(&self, leaving: f64, i: usize, u: &[f64; 3], behind: impl Fn() -> f64) -> f64 {
         let _ = behind;
         exchange::gas_link(leaving, i, u)
     }

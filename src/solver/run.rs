@@ -2,6 +2,8 @@
 
 use super::fingerprint::Fingerprint;
 use super::setup::Setup;
+use crate::lattice::moments::{Moments, deviator, magnitude};
+use crate::rheology::relaxation::shear_rate_of_omega;
 
 /// A solver that can run a [`Setup`]. External solvers implement this to be put through the claims.
 pub trait Backend: Sync {
@@ -143,6 +145,30 @@ pub struct Fields {
 }
 
 impl Fields {
+    /// Nothing anywhere: density 1, the rest zero; without fill and kind.
+    #[must_use]
+    pub fn empty(cells: usize) -> Self {
+        Self {
+            density: vec![1.0; cells],
+            velocity: vec![[0.0; 3]; cells],
+            stress: vec![[0.0; 6]; cells],
+            shear_rate: vec![0.0; cells],
+            omega: vec![0.0; cells],
+            ..Self::default()
+        }
+    }
+
+    /// Writes down one cell from its moments and even relaxation rate \[Y2\].
+    pub fn record(&mut self, cell: usize, m: &Moments<f64>, omega: f64) {
+        let q = deviator(&m.q);
+        let weight = 1.0 - 0.5 * omega;
+        self.density[cell] = m.rho;
+        self.velocity[cell] = m.u;
+        self.stress[cell] = q.map(|q| -weight * q);
+        self.shear_rate[cell] = shear_rate_of_omega(m.rho, omega, magnitude(&q));
+        self.omega[cell] = omega;
+    }
+
     /// Whether a cell holds fluid; `solid`: whether it is solid.
     #[must_use]
     pub fn is_fluid(&self, cell: usize, solid: bool) -> bool {

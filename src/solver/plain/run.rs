@@ -5,8 +5,7 @@ use rayon::prelude::*;
 use super::cell::{self, Cell};
 use crate::boundary::links::{CellKind, Links};
 use crate::lattice::Q;
-use crate::lattice::moments::{deviator, moments};
-use crate::rheology::relaxation::shear_rate_of_omega;
+use crate::lattice::moments::moments;
 use crate::solver::fingerprint::{Fingerprint, Hasher};
 use crate::solver::initial;
 use crate::solver::physics::Physics;
@@ -247,27 +246,11 @@ impl<P: Physics> Run for PlainRun<P> {
     }
 
     fn fields(&self) -> Fields {
-        let cells = self.f.len();
-        let mut fields = Fields {
-            density: vec![1.0; cells],
-            velocity: vec![[0.0; 3]; cells],
-            stress: vec![[0.0; 6]; cells],
-            shear_rate: vec![0.0; cells],
-            omega: vec![0.0; cells],
-            fill: Vec::new(),
-            kind: Vec::new(),
-        };
+        let mut fields = Fields::empty(self.f.len());
         let force = self.setup.force.at(self.step);
         for cell in self.fluid_cells_in_order() {
-            let cell::State { m, omega } = self.state(cell, &force);
-            let q = deviator(&m.q);
-            let weight = 1.0 - 0.5 * omega;
-            fields.density[cell] = m.rho;
-            fields.velocity[cell] = m.u;
-            fields.stress[cell] = q.map(|q| -weight * q);
-            let magnitude = crate::lattice::moments::magnitude(&q);
-            fields.shear_rate[cell] = shear_rate_of_omega(m.rho, omega, magnitude);
-            fields.omega[cell] = omega;
+            let state = self.state(cell, &force);
+            fields.record(cell, &state.m, state.omega);
         }
         fields
     }

@@ -2,6 +2,7 @@
 
 use super::study::Study;
 
+pub mod columns;
 pub mod dam_break;
 pub mod film;
 pub mod free_surface;

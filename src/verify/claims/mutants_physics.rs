@@ -2,6 +2,7 @@
 
 use crate::boundary::bounce_back::bounce_back;
 use crate::collision::{Collision, CollisionChoice};
+use crate::free_surface::Kind;
 use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::W;
@@ -9,7 +10,7 @@ use crate::lattice::equilibrium::dot;
 use crate::lattice::moments::{Moments, deviator, magnitude, momentum, non_equilibrium, second};
 use crate::rheology::Law;
 use crate::solver::physics::{Physics, Standard};
-use crate::solver::plain::PlainRun;
+use crate::solver::plain::{PlainRun, SurfaceRun};
 use crate::solver::run::{Backend, Run, StartError};
 use crate::solver::setup::Setup;
 
@@ -30,6 +31,16 @@ pub enum Mistake {
     SpinReversed,
     /// \[B3\] with the apparent viscosity.
     ApparentViscosityAtWall,
+    /// 000 Eq 12: masses for fills in the wetted share.
+    ExchangeOfMasses,
+    /// 004 Eq 3.31: half the difference of the fills.
+    ExchangeOfDifferences,
+    /// 004 Eq 3.32 at the node on the liquid side.
+    ReconstructionAtNeighbour,
+    /// 000 Eq 11, 004 Eq 3.30 without time level: populations before collision.
+    ExchangeBeforeCollision,
+    /// 000: excess without a rule.
+    ExcessDropped,
 }
 
 /// The plain solver with one mistake.
@@ -50,7 +61,11 @@ impl Backend for Mistaken {
         }
         let right =
             Standard { laws: setup.fluids.clone(), treatment: setup.yielding, collision: setup.collision };
-        Ok(Box::new(PlainRun::start(&setup, Wrong { right, mistake: self.0 })?))
+        let wrong = Wrong { right, mistake: self.0 };
+        match setup.free_surface {
+            Some(_) => Ok(Box::new(SurfaceRun::start(&setup, wrong)?)),
+            None => Ok(Box::new(PlainRun::start(&setup, wrong)?)),
+        }
     }
 }
 
@@ -134,5 +149,48 @@ impl Physics for Wrong {
         } else {
             self.right.tangent_fluidity(fluid, rho, omega, q)
         }
+    }
+
+    fn wetted_share(
+        &self,
+        neighbour: Kind,
+        fill: f64,
+        neighbour_fill: f64,
+        masses: impl Fn() -> [f64; 2],
+    ) -> f64 {
+        match (neighbour, self.mistake) {
+            (Kind::Interface, Mistake::ExchangeOfMasses) => {
+                let [own, other] = masses();
+                0.5 * (own + other)
+            }
+            (Kind::Interface, Mistake::ExchangeOfDifferences) => 0.5 * (neighbour_fill - fill),
+            _ => self.right.wetted_share(neighbour, fill, neighbour_fill, masses),
+        }
+    }
+
+    fn link_mass(&self, share: f64, arriving: f64, leaving: f64, before: impl Fn() -> [f64; 2]) -> f64 {
+        if self.mistake == Mistake::ExchangeBeforeCollision {
+            let [arriving, leaving] = before();
+            share * (arriving - leaving)
+        } else {
+            self.right.link_mass(share, arriving, leaving, before)
+        }
+    }
+
+    fn gas_link(&self, leaving: f64, i: usize, u: &[f64; 3], behind: impl Fn() -> f64) -> f64 {
+        let wrong = self.mistake == Mistake::ReconstructionAtNeighbour;
+        self.right.gas_link(if wrong { behind() } else { leaving }, i, u, &behind)
+    }
+
+    fn wants_before(&self) -> bool {
+        self.mistake == Mistake::ExchangeBeforeCollision
+    }
+
+    fn is_mutant(&self) -> bool {
+        true
+    }
+
+    fn excess(&self, e: f64) -> f64 {
+        if self.mistake == Mistake::ExcessDropped { 0.0 } else { e }
     }
 }

@@ -285,8 +285,10 @@ impl<P: Physics> SurfaceRun<P> {
                     match kind {
                         Kind::Gas | Kind::Solid => {
                             touches |= touch::GAS;
-                            let behind = self.links.neighbour_along(cell, out);
-                            let behind = behind.map_or(own[out], |b| self.post[b][out]);
+                            let behind = || {
+                                let behind = self.links.neighbour_along(cell, out);
+                                behind.map_or(own[out], |b| self.post[b][out])
+                            };
                             arrived[i] = self.physics.gas_link(own[out], out, u, behind);
                             continue;
                         }
@@ -294,12 +296,9 @@ impl<P: Physics> SurfaceRun<P> {
                         Kind::Interface => {}
                     }
                     arrived[i] = self.post[from][direction];
-                    let masses = [self.mass_before(cell), self.mass_before(from)];
+                    let masses = || [self.mass_before(cell), self.mass_before(from)];
                     let share = self.physics.wetted_share(kind, self.fill[cell], self.fill[from], masses);
-                    let before = match self.before.get(from) {
-                        Some(f) => [f[direction], self.before[cell][out]],
-                        None => [0.0; 2],
-                    };
+                    let before = || [self.before[from][direction], self.before[cell][out]];
                     gained[i] = self.physics.link_mass(share, arrived[i], own[out], before);
                 }
             }
@@ -321,7 +320,7 @@ impl<P: Physics> SurfaceRun<P> {
         let leaving = self.post[cell][out];
         let u = &self.velocity[cell];
         if crate::lattice::equilibrium::dot(out, u) > 0.0 {
-            self.physics.gas_link(leaving, out, u, leaving)
+            self.physics.gas_link(leaving, out, u, || leaving)
         } else {
             leaving
         }

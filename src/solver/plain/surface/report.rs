@@ -3,8 +3,7 @@
 use super::SurfaceRun;
 use crate::free_surface::Kind;
 use crate::lattice::Q;
-use crate::lattice::moments::{deviator, magnitude, moments};
-use crate::rheology::relaxation::shear_rate_of_omega;
+use crate::lattice::moments::moments;
 use crate::solver::fingerprint::{Fingerprint, Hasher};
 use crate::solver::physics::Physics;
 use crate::solver::plain::cell::Cell;
@@ -36,26 +35,13 @@ impl<P: Physics> Run for SurfaceRun<P> {
     }
 
     fn fields(&self) -> Fields {
-        let cells = self.f.len();
-        let mut fields = Fields {
-            density: vec![1.0; cells],
-            velocity: vec![[0.0; 3]; cells],
-            stress: vec![[0.0; 6]; cells],
-            shear_rate: vec![0.0; cells],
-            omega: vec![0.0; cells],
-            fill: vec![0.0; cells],
-            kind: self.kinds.iter().map(|&kind| kind as u8).collect(),
-        };
+        let mut fields = Fields::empty(self.f.len());
+        fields.fill = vec![0.0; self.f.len()];
+        fields.kind = self.kinds.iter().map(|&kind| kind as u8).collect();
         let force = self.setup.force.at(self.step);
         for cell in self.fluid_in_order() {
             let state = self.state(cell, &self.force_at(cell, &force));
-            let q = deviator(&state.m.q);
-            let weight = 1.0 - 0.5 * state.omega;
-            fields.density[cell] = state.m.rho;
-            fields.velocity[cell] = state.m.u;
-            fields.stress[cell] = q.map(|q| -weight * q);
-            fields.shear_rate[cell] = shear_rate_of_omega(state.m.rho, state.omega, magnitude(&q));
-            fields.omega[cell] = state.omega;
+            fields.record(cell, &state.m, state.omega);
             fields.fill[cell] =
                 if self.kinds[cell] == Kind::Liquid { 1.0 } else { self.mass[cell] / state.m.rho };
         }

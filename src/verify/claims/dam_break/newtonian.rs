@@ -1,13 +1,14 @@
 //! Newtonian dam breaks: viscous currents on the horizontal, the inviscid limit, and a collapsing column.
 
 use crate::rheology::Law;
-use crate::solver::run::{Backend, Fields};
+use crate::solver::run::Backend;
 use crate::solver::setup::{BodyForce, Face, FreeSurface, Setup, SurfaceForce};
 use crate::verify::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::verify::exact::dam_break::{Ritter, ViscousCurrent};
 use crate::verify::exact::thin_layer::{Geometry, ThinLayer};
 
 use super::slope::twin_failed;
+use crate::verify::claims::columns::{depths, front};
 
 /// A block of fluid on a horizontal floor against the plane x = 0 (and y = 0), released at step 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,12 +74,6 @@ impl Block {
         (0..POINTS * POINTS).map(inside).sum::<f64>() / (POINTS * POINTS) as f64
     }
 
-    /// Depth along x on the plane y = 0, cells.
-    pub(super) fn depths(setup: &Setup, fields: &Fields) -> Vec<f64> {
-        let [nx, _, nz] = setup.extents;
-        (0..nx).map(|i| (0..nz).map(|k| fields.fill[setup.index([i, 0, k])]).sum()).collect()
-    }
-
     /// Initial volume of the whole (planar: per width and on this side).
     fn volume(&self, setup: &Setup) -> f64 {
         let part: f64 = setup.free_surface.as_ref().map_or(0.0, |s| s.fill.iter().sum());
@@ -105,13 +100,6 @@ impl Block {
         let history = layer.run(&surface, times).map_err(twin_failed)?;
         Ok(history.snapshots.iter().map(|s| s.front(threshold).unwrap_or(f64::NAN)).collect())
     }
-}
-
-/// Where a depth falls through a threshold, cells; 0 if nowhere.
-pub(super) fn front(depths: &[f64], threshold: f64) -> f64 {
-    let Some(i) = depths.iter().rposition(|&d| d > threshold) else { return 0.0 };
-    let next = depths.get(i + 1).copied().unwrap_or(0.0);
-    i as f64 + 0.5 + (depths[i] - threshold) / (depths[i] - next)
 }
 
 /// A viscous block: compression 3 g h0 = 0.02, τ = 1.
@@ -153,7 +141,7 @@ fn viscous_front(backend: &dyn Backend, geometry: Geometry, height: f64) -> Resu
     let mut run = backend.start(&setup)?;
     run.advance(time as u64)?;
     let threshold = THRESHOLD * height;
-    let found = front(&Block::depths(&setup, &run.fields()), threshold);
+    let found = front(&depths(&setup, &run.fields(), 0), threshold);
     let expected = block.twin(&[time], threshold)?[0];
     let ledger = run.ledger().unwrap_or_default();
     Ok(Sample::relative(height, found, expected)
@@ -240,9 +228,9 @@ pub(super) fn ritter_view(
     for &time in times {
         let step = (time * inviscid_unit(block)).round() as u64;
         run.advance(step - run.step())?;
-        let depths = Block::depths(&setup, &run.fields());
-        let at_dam = 0.5 * (depths[dam - 1] + depths[dam]) / height;
-        seen.push([at_dam, (front(&depths, 0.02 * height) - block.length()) / height]);
+        let profile = depths(&setup, &run.fields(), 0);
+        let at_dam = 0.5 * (profile[dam - 1] + profile[dam]) / height;
+        seen.push([at_dam, (front(&profile, 0.02 * height) - block.length()) / height]);
     }
     Ok(seen)
 }
@@ -307,7 +295,7 @@ pub(super) fn column_fronts(backend: &dyn Backend, block: &Block) -> Result<Vec<
     for [time, _] in COLUMN {
         run.advance((time * unit).round() as u64 - run.step())?;
         // Seen from the side the tongue counts when it is a few hundredths of the width thick.
-        fronts.push(front(&Block::depths(&setup, &run.fields()), 0.03 * width) / width);
+        fronts.push(front(&depths(&setup, &run.fields(), 0), 0.03 * width) / width);
     }
     Ok(fronts)
 }

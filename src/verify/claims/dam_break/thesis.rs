@@ -5,6 +5,7 @@ use crate::rheology::Law;
 use crate::solver::run::{Fields, Run};
 use crate::solver::setup::{BodyForce, Face, FreeSurface, Setup, SolidMotion, SurfaceForce, YieldTreatment};
 use crate::units::Units;
+use crate::verify::claims::columns;
 use crate::verify::exact::ExactError;
 use crate::verify::exact::flow_curve::FlowCurve;
 use crate::verify::exact::thin_layer::{Geometry, Snapshot, ThinLayer, setting};
@@ -193,10 +194,8 @@ impl Case {
 impl Prepared {
     /// Depth of fluid above the top of the bed in every column, m.
     pub fn depths(&self, fields: &Fields) -> Vec<f64> {
-        let [nx, _, nz] = self.setup.extents;
-        let column =
-            |i: usize| (self.bed_cells..nz).map(|k| fields.fill[self.setup.index([i, 0, k])]).sum::<f64>();
-        (0..nx).map(|i| self.units.length_to_si(column(i))).collect()
+        let cells = columns::depths(&self.setup, fields, self.bed_cells);
+        cells.into_iter().map(|depth| self.units.length_to_si(depth)).collect()
     }
 
     /// x of the column centres, m.
@@ -206,9 +205,7 @@ impl Prepared {
 
     /// Largest x at which the depth above the bed falls through [`THRESHOLD`], m; 0 without any.
     pub fn front(&self, depths: &[f64]) -> f64 {
-        let Some(i) = depths.iter().rposition(|&d| d > THRESHOLD) else { return 0.0 };
-        let next = depths.get(i + 1).copied().unwrap_or(0.0);
-        self.units.dx_m * (i as f64 + 0.5 + (depths[i] - THRESHOLD) / (depths[i] - next))
+        self.units.dx_m * columns::front(depths, THRESHOLD)
     }
 
     /// Mass-weighted mean velocity along the slope, m/s.

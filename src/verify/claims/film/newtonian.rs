@@ -117,7 +117,8 @@ pub const CLOSED_FORM: Claim = Claim {
     measures: "Σ u φ over the column",
     reference: Reference {
         source: "q + (F/mu)(N/24 + 3φ²/8 − φ³/3), N full cells under one of fill φ: midpoint rule, and 2Λ/3 of the \
-                 change of force at the interface cell",
+                 change of force at the interface cell. The first part is derived; the factor of the second was read \
+                 off runs at one fill and holds at the others: a record of what the scheme does, not a proof",
         uncertainty: 0.0,
     },
     metric: Metric::Relative,

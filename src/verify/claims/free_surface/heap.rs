@@ -7,6 +7,8 @@ use crate::solver::run::{Backend, Run};
 use crate::solver::setup::{BodyForce, Setup};
 use crate::units::Units;
 use crate::verify::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::verify::claims::columns;
+use crate::verify::exact::slump::{Edge, InclineRest};
 use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
 
 const RHO: f64 = 997.45;
@@ -20,31 +22,10 @@ const LENGTH: f64 = 0.6;
 /// Depth that marks the front, m.
 const FRONT: f64 = 3e-3;
 
-/// Depth at distance `d` behind the front of a heap at the limit of rest, m:
-/// d = −cot θ (h + h_c ln(1 − h/h_c)).
-///
-/// # Source
-/// Liu & Mei 1989, J. Fluid Mech. 207, 505-529.
-fn depth(d: f64) -> f64 {
-    let critical = SIGMA0 / MARGIN / (RHO * G * libm::sin(SLOPE));
-    if d <= 0.0 {
-        return 0.0;
-    }
-    let (mut low, mut high) = (0.0, critical * (1.0 - 1e-12));
-    for _ in 0..100 {
-        let h = 0.5 * (low + high);
-        let reach = -(h + critical * libm::log(1.0 - h / critical)) / libm::tan(SLOPE);
-        if reach < d {
-            low = h;
-        } else {
-            high = h;
-        }
-    }
-    low
-}
-
 /// The heap on cells of `dx` metres, and its units; Δt from 3 g H Δt²/Δx² = 0.02, H = 6 cm.
-fn heap(dx: f64) -> (Setup, Units) {
+fn heap(dx: f64) -> Result<(Setup, Units), VerifyError> {
+    let shape = InclineRest::new(SIGMA0 / MARGIN, RHO, G, SLOPE)
+        .map_err(|e| VerifyError::Numerics { what: "the shape at rest", detail: e.to_string() })?;
     let dt = dx * (0.02 / (3.0 * G * 0.06)).sqrt();
     let units = Units::new(dx, dt, RHO);
     let law = Law::HerschelBulkley {
@@ -56,24 +37,20 @@ fn heap(dx: f64) -> (Setup, Units) {
     let fill = |[i, _, k]: [usize; 3]| {
         let part = |s: usize| {
             let x = (i as f64 + (s as f64 + 0.5) / 8.0) * dx;
-            (depth(LENGTH - x) / dx - k as f64).clamp(0.0, 1.0)
+            (shape.depth(Edge::Downhill, LENGTH - x) / dx - k as f64).clamp(0.0, 1.0)
         };
         (0..8).map(part).sum::<f64>() / 8.0
     };
     let weight = units.force_to_lattice(RHO * G);
     let mut setup = tank(extents, law, weight, fill);
     setup.force = BodyForce::Constant([weight * libm::sin(SLOPE), 0.0, -weight * libm::cos(SLOPE)]);
-    (setup, units)
+    Ok((setup, units))
 }
 
 /// Where the depth falls below [`FRONT`], m; linear between columns.
 fn front(run: &dyn Run, dx: f64) -> f64 {
-    let fields = run.fields();
-    let [nx, _, nz] = run.setup().extents;
-    let depth = |i: usize| (0..nz).map(|k| fields.fill[i + nx * k]).sum::<f64>() * dx;
-    let last = (0..nx - 1).rev().find(|&i| depth(i) > FRONT).unwrap_or(0);
-    let (a, b) = (depth(last), depth(last + 1));
-    (last as f64 + 0.5 + (a - FRONT) / (a - b)) * dx
+    let depths: Vec<f64> = columns::depths(run.setup(), &run.fields(), 0).iter().map(|d| d * dx).collect();
+    dx * columns::front(&depths, FRONT)
 }
 
 /// Mass-weighted mean of |u|, m/s.
@@ -106,7 +83,7 @@ struct Rest {
 }
 
 fn rest(backend: &dyn Backend, dx: f64, end: f64) -> Result<Rest, VerifyError> {
-    let (setup, units) = heap(dx);
+    let (setup, units) = heap(dx)?;
     let dt = dx * (0.02 / (3.0 * G * 0.06)).sqrt();
     let mut run = backend.start(&setup)?;
     let start = front(run.as_ref(), dx);
@@ -244,7 +221,7 @@ fn minute(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError>
     );
     for &spacing in spacings {
         let dx = 1e-3 * spacing;
-        let (setup, units) = heap(dx);
+        let (setup, units) = heap(dx)?;
         let dt = dx * (0.02 / (3.0 * G * 0.06)).sqrt();
         let mut run = backend.start(&setup)?;
         let start = front(run.as_ref(), dx);
@@ -267,17 +244,4 @@ fn minute(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError>
         plot = plot.with(Series::line_markers(format!("{spacing} mm"), points));
     }
     Ok(ExhibitData { tables: vec![table], plots: vec![plot], notes: Vec::new() })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn limit_of_a_short_heap_is_a_wedge_at_yield() {
-        // Far from h_c: σ0' = ρ g h h', so h² = 2 σ0' d/(ρ g cos θ) to first order in h/h_c (1 % at 0.1 mm).
-        let d: f64 = 1e-6;
-        let wedge = (2.0 * SIGMA0 / MARGIN * d / (RHO * G * libm::cos(SLOPE))).sqrt();
-        assert!((depth(d) / wedge - 1.0).abs() < 0.01);
-    }
 }
