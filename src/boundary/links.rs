@@ -37,6 +37,8 @@ pub struct BoundaryCell {
     pub normal: [f64; 3],
     /// Whether any link hits a wall or solid (an open face is neither).
     pub touches_wall: bool,
+    /// Bit i: the link along c_i hits a wall or solid.
+    pub walls: u32,
 }
 
 /// What a cell is for streaming.
@@ -188,13 +190,15 @@ impl Links {
     }
 }
 
-/// The record of a cell, or `None` if every link is ordinary.
-fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> {
+/// The record of a cell, or `None` if every link is ordinary; `setup` must have passed
+/// [`crate::solver::check::check`] and the cell must not be solid.
+pub fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> {
     let at = setup.coordinates(cell);
     let mut sources = [Source::Cell { cell: cell as u32, direction: 0 }; Q];
     let mut ordinary = true;
     let mut towards = [0; 3];
     let mut spread = [0; 3];
+    let mut walls = 0;
     for i in 1..Q {
         let (source, plain) = resolve(setup, at, i);
         sources[i] = source;
@@ -202,6 +206,7 @@ fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> {
         if let Source::Wall { .. } = source {
             // The wall lies along −c_i; weights in units of 1/36 keep the sums exact.
             let w = if i <= 6 { 2 } else { 1 };
+            walls |= 1 << opposite(i);
             for a in 0..3 {
                 towards[a] -= w * C[i][a];
                 spread[a] += w * C[i][a] * C[i][a];
@@ -214,6 +219,7 @@ fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> {
         sources,
         normal: if touches_wall { wall_normal(towards, spread) } else { [0.0; 3] },
         touches_wall,
+        walls,
     })
 }
 

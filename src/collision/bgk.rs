@@ -4,6 +4,7 @@ use super::Collision;
 use super::forcing_guo::{even_source, odd_source};
 use super::trt::raw_odd_departure;
 use crate::lane::Lane;
+use crate::lane::unroll::directions;
 use crate::lattice::Q;
 use crate::lattice::equilibrium::equilibrium;
 use crate::lattice::moments::Moments;
@@ -25,7 +26,10 @@ impl Collision for Bgk {
         let even = even_source(&m.u, &m.force);
         let odd = odd_source(&m.force);
         let weight = L::one() - L::splat(0.5) * omega;
-        std::array::from_fn(|i| (h[i] - omega * (h[i] - heq[i])) + weight * (even[i] + odd[i]))
+        directions(
+            #[inline(always)]
+            |i| (h[i] - omega * (h[i] - heq[i])) + weight * (even[i] + odd[i]),
+        )
     }
 
     #[inline(always)]

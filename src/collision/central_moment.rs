@@ -2,8 +2,9 @@
 
 use super::{Collision, OddRate};
 use crate::lane::Lane;
+use crate::lane::unroll::{six, three};
 use crate::lattice::moments::{Moments, THIRD, deviator, momentum, populations, third};
-use crate::lattice::{Q, pair};
+use crate::lattice::{Q, SYMMETRIC, pair};
 
 /// Central-moment operator.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,7 +55,11 @@ impl Collision for CentralMoment {
 #[inline(always)]
 pub fn relaxed_stress<L: Lane>(m: &Moments<L>, omega: L) -> [L; 6] {
     let keep = L::one() - omega;
-    deviator(&m.q).map(|q| keep * q)
+    let q = deviator(&m.q);
+    six(
+        #[inline(always)]
+        |k| keep * q[k],
+    )
 }
 
 /// Third moments in Hermite form, a = m_aab − m_b/3, of the pre-collision populations.
@@ -67,7 +72,10 @@ pub fn relaxed_stress<L: Lane>(m: &Moments<L>, omega: L) -> [L; 6] {
 pub fn third_hermite<L: Lane>(h: &[L; Q]) -> [L; 6] {
     let m3 = third(h);
     let j = momentum(h);
-    std::array::from_fn(|k| m3[k] - L::splat(1.0 / 3.0) * j[THIRD[k][1]])
+    six(
+        #[inline(always)]
+        |k| m3[k] - L::splat(1.0 / 3.0) * j[THIRD[k][1]],
+    )
 }
 
 /// e = ρ u_a² u_b: third Hermite moment of the equilibrium.
@@ -126,11 +134,14 @@ pub fn third_departure<L: Lane>(m: &Moments<L>, a: L, k: usize) -> L {
 /// Claims `poiseuille-newtonian-magic`, `central-moment-galilean`.
 #[inline(always)]
 pub fn third_post<L: Lane>(m: &Moments<L>, a: &[L; 6], p: &[L; 6], keep_odd: L) -> [L; 6] {
-    std::array::from_fn(|k| {
-        let half_s = L::splat(0.5) * third_force(m, k);
-        let own = third_departure(m, a[k], k);
-        ((third_equilibrium(m, k) + induced(&m.u, p, k)) + keep_odd * own) + half_s
-    })
+    six(
+        #[inline(always)]
+        |k| {
+            let half_s = L::splat(0.5) * third_force(m, k);
+            let own = third_departure(m, a[k], k);
+            ((third_equilibrium(m, k) + induced(&m.u, p, k)) + keep_odd * own) + half_s
+        },
+    )
 }
 
 /// The departures of all third moments as populations.
@@ -143,7 +154,10 @@ pub fn third_post<L: Lane>(m: &Moments<L>, a: &[L; 6], p: &[L; 6], keep_odd: L) 
 pub fn co_moving_odd_departure<L: Lane>(h: &[L; Q], m: &Moments<L>) -> [L; Q] {
     let zero = L::zero();
     let a = third_hermite(h);
-    let own = std::array::from_fn(|k| third_departure(m, a[k], k));
+    let own = six(
+        #[inline(always)]
+        |k| third_departure(m, a[k], k),
+    );
     populations(zero, &[zero; 3], &[zero; 6], &own, &[zero; 3])
 }
 
@@ -159,19 +173,32 @@ pub fn rebuild<L: Lane>(m: &Moments<L>, p: &[L; 6], third: &[L; 6]) -> [L; Q] {
     let (u, force) = (&m.u, &m.force);
     let (half, one_third) = (L::splat(0.5), L::splat(1.0 / 3.0));
     let pressure = one_third * m.d_rho;
-    let m1: [L; 3] = std::array::from_fn(|a| m.rho * u[a] + half * force[a]);
-    let m2: [L; 6] = std::array::from_fn(|k| {
-        let [a, b] = crate::lattice::SYMMETRIC[k];
-        let convected = m.rho * (u[a] * u[b]) + p[k];
-        let forced = half * (u[a] * force[b] + u[b] * force[a]);
-        if a == b { (pressure + convected) + forced } else { convected + forced }
-    });
-    let m3: [L; 6] = std::array::from_fn(|k| third[k] + one_third * m1[THIRD[k][1]]);
-    let m4 = [(0, 1), (0, 2), (1, 2)].map(|(a, b)| {
-        let (uu_a, uu_b) = (u[a] * u[a], u[b] * u[b]);
-        let induced = (uu_a * p[b] + uu_b * p[a]) + L::splat(4.0) * ((u[a] * u[b]) * p[pair(a, b)]);
-        let isotropic = one_third * ((m2[a] + m2[b]) - L::splat(2.0) * pressure) + one_third * pressure;
-        (m.rho * (uu_a * uu_b) + induced) + isotropic
-    });
+    let m1 = three(
+        #[inline(always)]
+        |a| m.rho * u[a] + half * force[a],
+    );
+    let m2 = six(
+        #[inline(always)]
+        |k| {
+            let [a, b] = SYMMETRIC[k];
+            let convected = m.rho * (u[a] * u[b]) + p[k];
+            let forced = half * (u[a] * force[b] + u[b] * force[a]);
+            if a == b { (pressure + convected) + forced } else { convected + forced }
+        },
+    );
+    let m3 = six(
+        #[inline(always)]
+        |k| third[k] + one_third * m1[THIRD[k][1]],
+    );
+    let m4 = three(
+        #[inline(always)]
+        |k| {
+            let [a, b] = SYMMETRIC[3 + k];
+            let (uu_a, uu_b) = (u[a] * u[a], u[b] * u[b]);
+            let induced = (uu_a * p[b] + uu_b * p[a]) + L::splat(4.0) * ((u[a] * u[b]) * p[pair(a, b)]);
+            let isotropic = one_third * ((m2[a] + m2[b]) - L::splat(2.0) * pressure) + one_third * pressure;
+            (m.rho * (uu_a * uu_b) + induced) + isotropic
+        },
+    );
     populations(m.d_rho, &m1, &m2, &m3, &m4)
 }

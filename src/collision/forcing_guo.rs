@@ -1,6 +1,7 @@
 //! The Guo body-force source \[L5\], split into its even and odd parts.
 
 use crate::lane::Lane;
+use crate::lane::unroll::directions;
 use crate::lattice::equilibrium::dot;
 use crate::lattice::{Q, W};
 
@@ -13,7 +14,10 @@ use crate::lattice::{Q, W};
 #[inline(always)]
 pub fn even_source<L: Lane>(u: &[L; 3], force: &[L; 3]) -> [L; Q] {
     let uf = L::splat(3.0) * ((u[0] * force[0] + u[1] * force[1]) + u[2] * force[2]);
-    std::array::from_fn(|i| L::splat(W[i]) * (L::splat(9.0) * (dot(i, u) * dot(i, force)) - uf))
+    directions(
+        #[inline(always)]
+        |i| L::splat(W[i]) * (L::splat(9.0) * (dot(i, u) * dot(i, force)) - uf),
+    )
 }
 
 /// 3 w_i c·F: the odd part, before the factor 1 − ω⁻/2.
@@ -24,5 +28,8 @@ pub fn even_source<L: Lane>(u: &[L; 3], force: &[L; 3]) -> [L; Q] {
 /// Claim `shear-rate-uniform-acceleration`.
 #[inline(always)]
 pub fn odd_source<L: Lane>(force: &[L; 3]) -> [L; Q] {
-    std::array::from_fn(|i| L::splat(3.0 * W[i]) * dot(i, force))
+    directions(
+        #[inline(always)]
+        |i| L::splat(3.0 * W[i]) * dot(i, force),
+    )
 }

@@ -5,6 +5,7 @@ use super::central_moment::{
     co_moving_odd_departure, induced, rebuild, relaxed_stress, third_equilibrium, third_force,
 };
 use crate::lane::Lane;
+use crate::lane::unroll::six;
 use crate::lattice::Q;
 use crate::lattice::moments::Moments;
 
@@ -23,9 +24,10 @@ impl Collision for Regularised {
     #[inline(always)]
     fn collide<L: Lane>(&self, _h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q] {
         let p = relaxed_stress(m, omega);
-        let third = std::array::from_fn(|k| {
-            (third_equilibrium(m, k) + induced(&m.u, &p, k)) + L::splat(0.5) * third_force(m, k)
-        });
+        let third = six(
+            #[inline(always)]
+            |k| (third_equilibrium(m, k) + induced(&m.u, &p, k)) + L::splat(0.5) * third_force(m, k),
+        );
         rebuild(m, &p, &third)
     }
 

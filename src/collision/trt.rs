@@ -3,6 +3,7 @@
 use super::forcing_guo::{even_source, odd_source};
 use super::{Collision, OddRate};
 use crate::lane::Lane;
+use crate::lane::unroll::directions;
 use crate::lattice::equilibrium::equilibrium;
 use crate::lattice::moments::Moments;
 use crate::lattice::{Q, opposite};
@@ -30,12 +31,15 @@ impl Collision for Trt {
         let odd = odd_source(&m.force);
         let even_weight = L::one() - half * omega;
         let odd_weight = L::one() - half * odd_omega;
-        std::array::from_fn(|i| {
-            let j = opposite(i);
-            let (a, b) = (h[i] - heq[i], h[j] - heq[j]);
-            let relaxed = omega * (half * (a + b)) + odd_omega * (half * (a - b));
-            (h[i] - relaxed) + (even_weight * even[i] + odd_weight * odd[i])
-        })
+        directions(
+            #[inline(always)]
+            |i| {
+                let j = opposite(i);
+                let (a, b) = (h[i] - heq[i], h[j] - heq[j]);
+                let relaxed = omega * (half * (a + b)) + odd_omega * (half * (a - b));
+                (h[i] - relaxed) + (even_weight * even[i] + odd_weight * odd[i])
+            },
+        )
     }
 
     #[inline(always)]
@@ -65,8 +69,11 @@ pub fn raw_odd_departure<L: Lane>(h: &[L; Q], m: &Moments<L>) -> [L; Q] {
     let half = L::splat(0.5);
     let heq = equilibrium(m.d_rho, m.rho, &m.u);
     let source = odd_source(&m.force);
-    std::array::from_fn(|i| {
-        let j = opposite(i);
-        half * (((h[i] - heq[i]) - (h[j] - heq[j])) + source[i])
-    })
+    directions(
+        #[inline(always)]
+        |i| {
+            let j = opposite(i);
+            half * (((h[i] - heq[i]) - (h[j] - heq[j])) + source[i])
+        },
+    )
 }

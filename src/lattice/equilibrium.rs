@@ -2,16 +2,22 @@
 
 use super::{C, Q, W};
 use crate::lane::Lane;
+use crate::lane::unroll::directions;
 
 /// Σ_a c_a v_a for a lattice direction, without multiplications; grouped (x, y), z.
 #[inline(always)]
 pub fn dot<L: Lane>(i: usize, v: &[L; 3]) -> L {
-    let term = |a: usize| match C[i][a] {
+    (component(i, 0, v) + component(i, 1, v)) + component(i, 2, v)
+}
+
+/// c_a v_a.
+#[inline(always)]
+fn component<L: Lane>(i: usize, a: usize, v: &[L; 3]) -> L {
+    match C[i][a] {
         1 => v[a],
         -1 => -v[a],
         _ => L::zero(),
-    };
-    (term(0) + term(1)) + term(2)
+    }
 }
 
 /// Second-order equilibrium as h = f − w.
@@ -31,8 +37,11 @@ pub fn dot<L: Lane>(i: usize, v: &[L; 3]) -> L {
 #[inline(always)]
 pub fn equilibrium<L: Lane>(d_rho: L, rho: L, u: &[L; 3]) -> [L; Q] {
     let usq = L::splat(1.5) * ((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
-    std::array::from_fn(|i| {
-        let cu = L::splat(3.0) * dot(i, u);
-        L::splat(W[i]) * (d_rho + rho * ((cu + L::splat(0.5) * (cu * cu)) - usq))
-    })
+    directions(
+        #[inline(always)]
+        |i| {
+            let cu = L::splat(3.0) * dot(i, u);
+            L::splat(W[i]) * (d_rho + rho * ((cu + L::splat(0.5) * (cu * cu)) - usq))
+        },
+    )
 }

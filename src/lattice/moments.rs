@@ -1,7 +1,8 @@
 //! Sums over the populations of one cell: density, velocity, non-equilibrium stress, third moments.
 
-use super::Q;
+use super::{Q, SYMMETRIC};
 use crate::lane::Lane;
+use crate::lane::unroll::{directions, six, three};
 
 /// What a collision needs to know of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,12 +46,17 @@ pub fn density_excess<L: Lane>(h: &[L; Q]) -> L {
 /// Property `conserves_mass_and_momentum`.
 #[inline(always)]
 pub fn momentum<L: Lane>(h: &[L; Q]) -> [L; 3] {
-    let five = |a: usize, b: [usize; 2], c: [usize; 2]| h[a] + ((h[b[0]] + h[b[1]]) + (h[c[0]] + h[c[1]]));
     [
-        five(1, [7, 9], [11, 13]) - five(2, [8, 10], [12, 14]),
-        five(3, [7, 10], [15, 17]) - five(4, [8, 9], [16, 18]),
-        five(5, [11, 14], [15, 18]) - five(6, [12, 13], [16, 17]),
+        five(h, 1, [7, 9], [11, 13]) - five(h, 2, [8, 10], [12, 14]),
+        five(h, 3, [7, 10], [15, 17]) - five(h, 4, [8, 9], [16, 18]),
+        five(h, 5, [11, 14], [15, 18]) - five(h, 6, [12, 13], [16, 17]),
     ]
+}
+
+/// The five populations with the same component of the velocity: an axis, two planes.
+#[inline(always)]
+fn five<L: Lane>(h: &[L; Q], a: usize, b: [usize; 2], c: [usize; 2]) -> L {
+    h[a] + ((h[b[0]] + h[b[1]]) + (h[c[0]] + h[c[1]]))
 }
 
 /// Second raw moments Σ c_a c_b h_i: xx, yy, zz, xy, xz, yz.
@@ -110,11 +116,17 @@ pub const THIRD: [[usize; 2]; 6] = [[0, 1], [0, 2], [1, 0], [1, 2], [2, 0], [2, 
 #[inline(always)]
 pub fn non_equilibrium<L: Lane>(pi: &[L; 6], d_rho: L, rho: L, u: &[L; 3], force: &[L; 3]) -> [L; 6] {
     let p = L::splat(1.0 / 3.0) * d_rho;
-    let diagonal = |a: usize| ((pi[a] - p) - rho * (u[a] * u[a])) + u[a] * force[a];
-    let mixed = |k: usize, a: usize, b: usize| {
-        (pi[k] - rho * (u[a] * u[b])) + L::splat(0.5) * (u[a] * force[b] + u[b] * force[a])
-    };
-    [diagonal(0), diagonal(1), diagonal(2), mixed(3, 0, 1), mixed(4, 0, 2), mixed(5, 1, 2)]
+    six(
+        #[inline(always)]
+        |k| {
+            let [a, b] = SYMMETRIC[k];
+            if a == b {
+                ((pi[a] - p) - rho * (u[a] * u[a])) + u[a] * force[a]
+            } else {
+                (pi[k] - rho * (u[a] * u[b])) + L::splat(0.5) * (u[a] * force[b] + u[b] * force[a])
+            }
+        },
+    )
 }
 
 /// Density, velocity and non-equilibrium tensor of one cell \[L4\] \[Y1\].
@@ -130,7 +142,10 @@ pub fn moments<L: Lane>(h: &[L; Q], force: &[L; 3]) -> Moments<L> {
     let d_rho = density_excess(h);
     let rho = L::one() + d_rho;
     let j = momentum(h);
-    let u = std::array::from_fn(|a| (j[a] + L::splat(0.5) * force[a]) / rho);
+    let u = three(
+        #[inline(always)]
+        |a| (j[a] + L::splat(0.5) * force[a]) / rho,
+    );
     let q = non_equilibrium(&second(h), d_rho, rho, &u, force);
     Moments { d_rho, rho, u, force: *force, q }
 }
@@ -171,27 +186,9 @@ pub fn magnitude<L: Lane>(q: &[L; 6]) -> L {
 /// Property `inverse_reproduces_moments`.
 #[inline(always)]
 pub fn populations<L: Lane>(m0: L, m1: &[L; 3], m2: &[L; 6], m3: &[L; 6], m4: &[L; 3]) -> [L; Q] {
-    let half = L::splat(0.5);
-    let quarter = L::splat(0.25);
-    // f(s, r): ¼ (m_aabb + s m_bba + r m_aab + s r m_ab), for the four diagonals of one plane.
-    let plane = |aabb: L, bba: L, aab: L, ab: L| {
-        let even_plus = aabb + ab;
-        let even_minus = aabb - ab;
-        [
-            quarter * (even_plus + (bba + aab)),
-            quarter * (even_plus - (bba + aab)),
-            quarter * (even_minus + (bba - aab)),
-            quarter * (even_minus - (bba - aab)),
-        ]
-    };
-    let axis = |aa: L, aabb: L, aacc: L, a: L, bba: L, cca: L| {
-        let even = aa - (aabb + aacc);
-        let odd = a - (bba + cca);
-        [half * (even + odd), half * (even - odd)]
-    };
-    let x = axis(m2[0], m4[0], m4[1], m1[0], m3[2], m3[4]);
-    let y = axis(m2[1], m4[0], m4[2], m1[1], m3[0], m3[5]);
-    let z = axis(m2[2], m4[1], m4[2], m1[2], m3[1], m3[3]);
+    let x = axis(m2[0], [m4[0], m4[1]], m1[0], [m3[2], m3[4]]);
+    let y = axis(m2[1], [m4[0], m4[2]], m1[1], [m3[0], m3[5]]);
+    let z = axis(m2[2], [m4[1], m4[2]], m1[2], [m3[1], m3[3]]);
     let xy = plane(m4[0], m3[2], m3[0], m2[3]);
     let xz = plane(m4[1], m3[4], m3[1], m2[4]);
     let yz = plane(m4[2], m3[5], m3[3], m2[5]);
@@ -220,6 +217,39 @@ pub fn populations<L: Lane>(m0: L, m1: &[L; 3], m2: &[L; 6], m3: &[L; 6], m4: &[
     h
 }
 
+/// f(s, r) = ¼ (m_aabb + s m_bba + r m_aab + s r m_ab) for the four diagonals (s, r) of one plane.
+///
+/// # Source
+/// Design \[K3\].
+/// # Verified by
+/// Property `inverse_reproduces_moments`.
+#[inline(always)]
+fn plane<L: Lane>(aabb: L, bba: L, aab: L, ab: L) -> [L; 4] {
+    let quarter = L::splat(0.25);
+    let even_plus = aabb + ab;
+    let even_minus = aabb - ab;
+    [
+        quarter * (even_plus + (bba + aab)),
+        quarter * (even_plus - (bba + aab)),
+        quarter * (even_minus + (bba - aab)),
+        quarter * (even_minus - (bba - aab)),
+    ]
+}
+
+/// f(s) = ½ (m_aa − m_aabb − m_aacc + s (m_a − m_bba − m_cca)) for the two directions of one axis.
+///
+/// # Source
+/// Design \[K3\].
+/// # Verified by
+/// Property `inverse_reproduces_moments`.
+#[inline(always)]
+fn axis<L: Lane>(aa: L, fourth: [L; 2], a: L, third: [L; 2]) -> [L; 2] {
+    let half = L::splat(0.5);
+    let even = aa - (fourth[0] + fourth[1]);
+    let odd = a - (third[0] + third[1]);
+    [half * (even + odd), half * (even - odd)]
+}
+
 /// Adds `delta` to the six third moments without touching density, momentum, second and fourth moments.
 ///
 /// # Source
@@ -230,7 +260,8 @@ pub fn populations<L: Lane>(m0: L, m1: &[L; 3], m2: &[L; 6], m3: &[L; 6], m4: &[
 pub fn add_third<L: Lane>(h: &mut [L; Q], delta: &[L; 6]) {
     let zero = L::zero();
     let change = populations(zero, &[zero; 3], &[zero; 6], delta, &[zero; 3]);
-    for i in 1..Q {
-        h[i] = h[i] + change[i];
-    }
+    *h = directions(
+        #[inline(always)]
+        |i| if i == 0 { h[0] } else { h[i] + change[i] },
+    );
 }

@@ -5,6 +5,9 @@ use crate::lattice::moments::{THIRD, populations};
 use crate::lattice::{Q, SYMMETRIC, pair};
 use crate::rheology::{Law, Rheology};
 
+/// Rest at the reference density: where nothing else is asked for.
+pub const REST: FlowPoint = FlowPoint { density: 1.0, velocity: [0.0; 3], gradient: [[0.0; 3]; 3] };
+
 /// Strain-rate tensor ½(∇u + ∇uᵀ): xx, yy, zz, xy, xz, yz.
 #[must_use]
 pub fn strain_rate(gradient: &[[f64; 3]; 3]) -> [f64; 6] {

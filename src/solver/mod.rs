@@ -1,6 +1,7 @@
 //! State, steps and the backends that take them.
 
 pub mod check;
+pub mod fast;
 pub mod fingerprint;
 pub mod initial;
 pub mod physics;

@@ -79,16 +79,19 @@ pub struct Situation {
 }
 
 /// What the viscosity-independent wall subtracts from the populations leaving a boundary cell \[B3\].
+///
+/// `walls`: bit i is set where the link along c_i hits a wall. `normal`: unit vector towards it.
 #[inline(never)]
 pub fn wall_correction<P: Physics>(
     physics: &P,
-    record: &BoundaryCell,
+    walls: u32,
+    normal: &[f64; 3],
     h: &Cell,
     state: &State,
     situation: &Situation,
 ) -> Cell {
     let Situation { residual, fluid, sourced, limited } = situation;
-    let is_wall = |i: usize| matches!(record.sources[opposite(i)], Source::Wall { .. });
+    let is_wall = |i: usize| walls >> i & 1 != 0;
     let rho = state.m.rho;
     let odd_omega = physics.odd_omega(state.omega);
     let fluidity = physics.tangent_fluidity(*fluid, rho, state.omega, physics.stress_magnitude(&state.m));
@@ -103,7 +106,7 @@ pub fn wall_correction<P: Physics>(
         excess[i] += keep * departure[i];
     }
     let mut correction = link_correction(&excess, is_wall);
-    let along = tangential(residual, &record.normal);
+    let along = tangential(residual, normal);
     let mut curved = physics.curvature_velocity(&along, fluidity - 8.0 * local / rho);
     if *limited {
         let gamma_dot = shear_rate_of_omega(rho, state.omega, physics.stress_magnitude(&state.m));

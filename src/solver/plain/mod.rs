@@ -3,7 +3,7 @@
 //! A step is: wall slip where a wall needs it \[B3\], collide every cell, stream every cell. Each
 //! pass reads one array and writes another, so the result does not depend on the number of threads.
 
-mod cell;
+pub mod cell;
 mod run;
 mod surface;
 
@@ -13,7 +13,7 @@ use crate::solver::physics::{Physics, Standard};
 use crate::solver::run::{Backend, Run, StartError};
 use crate::solver::setup::{Setup, YieldTreatment};
 
-pub use run::PlainRun;
+pub use run::{PlainRun, starting_omega};
 pub use surface::SurfaceRun;
 
 /// The plain backend.

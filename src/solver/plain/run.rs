@@ -7,10 +7,10 @@ use crate::boundary::links::{CellKind, Links};
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
 use crate::solver::fingerprint::{Fingerprint, Hasher};
-use crate::solver::initial;
+use crate::solver::initial::{self, REST};
 use crate::solver::physics::Physics;
 use crate::solver::run::{Fields, Run, StartError, Stopped, Totals};
-use crate::solver::setup::{FlowPoint, Setup, WallRule, YieldTreatment};
+use crate::solver::setup::{Setup, WallRule, YieldTreatment};
 
 /// Cells per chunk of work: enough to hide the hand-over, few enough to balance.
 const CHUNK: usize = 4096;
@@ -103,7 +103,7 @@ impl<P: Physics> PlainRun<P> {
                 let sourced = self.setup.stress_source;
                 let situation = cell::Situation { residual, fluid, sourced, limited: false };
                 self.corrections[slot] =
-                    cell::wall_correction(&self.physics, record, &self.f[at], &state, &situation);
+                    cell::wall_correction(&self.physics, record.walls, &record.normal, &self.f[at], &state, &situation);
             }
         }
     }
@@ -217,10 +217,8 @@ impl<P: Physics> PlainRun<P> {
     }
 }
 
-const REST: FlowPoint = FlowPoint { density: 1.0, velocity: [0.0; 3], gradient: [[0.0; 3]; 3] };
-
 /// ω⁺ that the lagged treatment starts from: the law at the initial shear rate, clamped.
-pub(super) fn starting_omega(setup: &Setup, cell: usize) -> f64 {
+pub fn starting_omega(setup: &Setup, cell: usize) -> f64 {
     let YieldTreatment::LaggedClamped { tau_min, tau_max } = setup.yielding else { return 0.0 };
     let point = setup.initial.as_ref().map_or(REST, |flow| flow(setup.coordinates(cell)));
     let gamma_dot = initial::shear_rate(&initial::strain_rate(&point.gradient));
@@ -283,8 +281,10 @@ impl<P: Physics> Run for PlainRun<P> {
             let u = moments(&self.f[cell], &force).u;
             max_speed2 = max_speed2.max((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
         }
-        for omega in &self.previous_omega {
-            hasher.number(*omega);
+        for cell in self.fluid_cells_in_order() {
+            if let Some(omega) = self.previous_omega.get(cell) {
+                hasher.number(*omega);
+            }
         }
         let totals = self.totals();
         Fingerprint {

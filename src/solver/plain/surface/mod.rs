@@ -16,7 +16,7 @@ use crate::boundary::links::Links;
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
-use crate::solver::initial;
+use crate::solver::initial::{self, REST};
 use crate::solver::physics::Physics;
 use crate::solver::run::{Load, Run, StartError, Stopped};
 use crate::solver::setup::{FlowPoint, FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
@@ -58,8 +58,6 @@ pub struct SurfaceRun<P> {
     step: u64,
     pool: Option<rayon::ThreadPool>,
 }
-
-const REST: FlowPoint = FlowPoint { density: 1.0, velocity: [0.0; 3], gradient: [[0.0; 3]; 3] };
 
 impl<P: Physics> SurfaceRun<P> {
     /// Allocates and initialises. Without an initial flow the fluid starts at rest with the pressure that

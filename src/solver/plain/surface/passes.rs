@@ -112,7 +112,7 @@ impl<P: Physics> SurfaceRun<P> {
             let sourced = self.setup.stress_source;
             let situation = cell::Situation { residual, fluid: 0, sourced, limited: true };
             self.corrections[slot] =
-                cell::wall_correction(&self.physics, record, &self.f[at], &state, &situation);
+                cell::wall_correction(&self.physics, record.walls, &record.normal, &self.f[at], &state, &situation);
         }
     }
 

@@ -1,0 +1,319 @@
+//! One block: what surrounds it, which packs are ordinary, and the links that are not.
+
+use super::layout::{Layout, NONE};
+use crate::boundary::links::{BoundaryCell, Source, boundary_cell};
+use crate::lattice::{C, Q, direction, opposite};
+use crate::solver::setup::Setup;
+
+/// A cell by the place of its block and its place in the block; blocks may come and go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Place of the block in [`Layout`].
+    pub block: u32,
+    /// Place in the block.
+    pub local: u32,
+}
+
+/// Where an irregular population comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum From {
+    /// Population `direction` of another cell.
+    Cell { cell: Place, direction: u8 },
+    /// Bounced back \[B1\] by a wall with this velocity (number in the run's list); `body` as in
+    /// [`Source::Wall`].
+    Wall { velocity: u32, body: u8 },
+    /// An open face.
+    Open,
+}
+
+/// One irregular link: population `direction` of a cell does not come from the cell the grid names.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// Cell, place in the block.
+    pub local: u16,
+    /// Arriving direction.
+    pub direction: u8,
+    /// Its source.
+    pub from: From,
+    /// Position of the cell in [`Block::rim`].
+    pub rim: u16,
+}
+
+/// A cell with a wall or open link.
+#[derive(Clone, Debug)]
+pub struct RimCell {
+    /// Place in the block.
+    pub local: u16,
+    /// Bit i: the link towards c_i hits a wall.
+    pub walls: u32,
+    /// Whether a link is open.
+    pub open: bool,
+    /// Unit vector towards the wall, as in [`BoundaryCell`].
+    pub normal: [f64; 3],
+    /// Neighbours along the axes, low and high: for the pressure gradient \[B3\].
+    pub neighbours: [[Option<Place>; 2]; 3],
+}
+
+/// The parts of a block that follow from the set-up alone.
+#[derive(Clone, Debug)]
+pub struct Block {
+    /// Its place in [`Layout`].
+    pub place: usize,
+    /// First cell, box coordinates.
+    pub origin: [usize; 3],
+    /// Bit per lane, by pack: inside the box and not solid.
+    pub usable: Vec<u16>,
+    /// Irregular links in order of cell and direction.
+    pub links: Vec<Link>,
+    /// Position in `links` of the first link of every pack, and the end.
+    pub first_link: Vec<u32>,
+    /// Cells that touch walls or open faces, in order.
+    pub rim: Vec<RimCell>,
+    /// Number of the fluid by cell; empty if there is only one.
+    pub fluid: Vec<u8>,
+}
+
+/// The list of wall velocities of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Velocities {
+    /// Lattice units.
+    pub list: Vec<[f64; 3]>,
+}
+
+impl Velocities {
+    fn number(&mut self, velocity: [f64; 3]) -> u32 {
+        let same = |v: &[f64; 3]| v.map(f64::to_bits) == velocity.map(f64::to_bits);
+        // Faces have a few velocities; a spinning solid has one per link, most often new.
+        let recent = self.list.len().saturating_sub(16);
+        let found = self.list[..self.list.len().min(8)].iter().position(same);
+        let found = found.or_else(|| self.list[recent..].iter().position(same).map(|k| k + recent));
+        let number = found.unwrap_or_else(|| {
+            self.list.push(velocity);
+            self.list.len() - 1
+        });
+        number as u32
+    }
+}
+
+impl Block {
+    /// Looks at every cell of the block at a place; `width`: cells per pack.
+    #[must_use]
+    pub fn new(
+        setup: &Setup,
+        layout: &Layout,
+        place: usize,
+        width: usize,
+        velocities: &mut Velocities,
+    ) -> Self {
+        let origin = layout.origin(place);
+        let cells = layout.block_cells();
+        let packs = cells / width;
+        let mut block = Self {
+            place,
+            origin,
+            usable: vec![0; packs],
+            links: Vec::new(),
+            first_link: Vec::with_capacity(packs + 1),
+            rim: Vec::new(),
+            fluid: Vec::new(),
+        };
+        if setup.fluids.len() > 1 {
+            block.fluid = vec![0; cells];
+        }
+        let around = layout.around(place);
+        let plain = is_plain(setup, layout, place);
+        for local in 0..cells {
+            if local % width == 0 {
+                block.first_link.push(block.links.len() as u32);
+            }
+            let at = layout.cell(origin, local);
+            if !plain && (0..3).any(|a| at[a] >= setup.extents[a]) {
+                continue;
+            }
+            let cell = setup.index(at);
+            if !plain && setup.is_solid(cell) {
+                continue;
+            }
+            block.usable[local / width] |= 1 << (local % width);
+            if let Some(fluid) = block.fluid.get_mut(local) {
+                *fluid = setup.fluid_of_cell.get(cell).copied().unwrap_or(0);
+            }
+            if !plain {
+                block.add_links(setup, layout, local, cell, &around, velocities);
+            }
+        }
+        block.first_link.push(block.links.len() as u32);
+        block
+    }
+
+    fn add_links(
+        &mut self,
+        setup: &Setup,
+        layout: &Layout,
+        local: usize,
+        cell: usize,
+        around: &[usize; 27],
+        velocities: &mut Velocities,
+    ) {
+        let record = boundary_cell(setup, cell);
+        let mut rim = RimCell {
+            local: local as u16,
+            walls: 0,
+            open: false,
+            normal: record.as_ref().map_or([0.0; 3], |r| r.normal),
+            neighbours: [[None; 2]; 3],
+        };
+        let number = self.rim.len() as u16;
+        for i in 1..Q {
+            let source = source(setup, record.as_ref(), cell, i);
+            let from = match source {
+                Source::Cell { cell, direction } => {
+                    let place = place_of(setup, layout, cell as usize);
+                    let (block, there) = layout.upstream(local, i);
+                    if usize::from(direction) == i
+                        && around[block] == place.block as usize
+                        && there == place.local as usize
+                    {
+                        continue;
+                    }
+                    From::Cell { cell: place, direction }
+                }
+                Source::Wall { velocity, body } => {
+                    rim.walls |= 1 << opposite(i);
+                    From::Wall { velocity: velocities.number(velocity), body }
+                }
+                Source::Open => {
+                    rim.open = true;
+                    From::Open
+                }
+            };
+            self.links.push(Link { local: local as u16, direction: i as u8, from, rim: number });
+        }
+        if rim.walls != 0 || rim.open {
+            for (axis, sides) in rim.neighbours.iter_mut().enumerate() {
+                for (side, place) in sides.iter_mut().enumerate() {
+                    *place = neighbour(setup, layout, record.as_ref(), cell, axis, side == 1);
+                }
+            }
+            self.rim.push(rim);
+        }
+    }
+
+    /// Links of a pack.
+    #[inline(always)]
+    #[must_use]
+    pub fn links_of(&self, pack: usize) -> &[Link] {
+        &self.links[self.first_link[pack] as usize..self.first_link[pack + 1] as usize]
+    }
+
+    /// The irregular link of a cell in a direction, if it is one.
+    #[inline]
+    #[must_use]
+    pub fn link(&self, local: usize, i: usize, width: usize) -> Option<&Link> {
+        let links = self.links_of(local / width);
+        if links.is_empty() {
+            return None;
+        }
+        let key = |link: &Link| (usize::from(link.local), usize::from(link.direction));
+        links.binary_search_by_key(&(local, i), key).ok().map(|k| &links[k])
+    }
+
+    /// Position in the rim of a cell.
+    #[must_use]
+    pub fn rim_of(&self, local: usize) -> Option<usize> {
+        self.rim.binary_search_by_key(&local, |rim| usize::from(rim.local)).ok()
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        (size_of::<Self>()
+            + self.usable.capacity() * size_of::<u16>()
+            + self.links.capacity() * size_of::<Link>()
+            + self.first_link.capacity() * size_of::<u32>()
+            + self.rim.capacity() * size_of::<RimCell>()
+            + self.fluid.capacity()) as u64
+    }
+}
+
+/// Source of population `i` of a cell.
+#[must_use]
+pub fn source(setup: &Setup, record: Option<&BoundaryCell>, cell: usize, i: usize) -> Source {
+    match record {
+        Some(record) => record.sources[i],
+        None => {
+            // An ordinary cell: the neighbour, through a periodic face where need be.
+            let at = setup.coordinates(cell);
+            let from = std::array::from_fn(|a| {
+                let n = setup.extents[a];
+                match C[i][a] {
+                    1 if at[a] == 0 => n - 1,
+                    1 => at[a] - 1,
+                    -1 if at[a] + 1 == n => 0,
+                    -1 => at[a] + 1,
+                    _ => at[a],
+                }
+            });
+            Source::Cell { cell: setup.index(from) as u32, direction: i as u8 }
+        }
+    }
+}
+
+/// Place of a cell by its number in the box.
+#[must_use]
+pub fn place_of(setup: &Setup, layout: &Layout, cell: usize) -> Place {
+    let (block, local) = layout.find(setup.coordinates(cell));
+    Place { block: block as u32, local: local as u32 }
+}
+
+/// The neighbour along an axis that populations come from.
+fn neighbour(
+    setup: &Setup,
+    layout: &Layout,
+    record: Option<&BoundaryCell>,
+    cell: usize,
+    axis: usize,
+    high: bool,
+) -> Option<Place> {
+    let mut c = [0; 3];
+    c[axis] = if high { -1 } else { 1 };
+    match source(setup, record, cell, direction(c)?) {
+        Source::Cell { cell, .. } => Some(place_of(setup, layout, cell as usize)),
+        Source::Wall { .. } | Source::Open => None,
+    }
+}
+
+/// Whether every cell of a block and every neighbour of it lies in the box, or beyond a periodic face that
+/// the grid of blocks meets exactly, and none is solid.
+fn is_plain(setup: &Setup, layout: &Layout, place: usize) -> bool {
+    let origin = layout.origin(place);
+    let last = layout.cell(origin, layout.block_cells() - 1);
+    let inside = (0..3).all(|a| {
+        let n = setup.extents[a];
+        let fits = last[a] < n;
+        let open = setup.faces[a][0] == crate::solver::setup::Face::Periodic;
+        let whole = n.is_multiple_of(last[a] + 1 - origin[a]);
+        fits && if open { whole || (origin[a] > 0 && last[a] + 1 < n) } else { origin[a] > 0 && last[a] + 1 < n }
+    });
+    if !inside || setup.solids.is_empty() {
+        return inside;
+    }
+    let range = |a: usize| {
+        let n = setup.extents[a];
+        (origin[a] + n - 1..=last[a] + n + 1).map(move |x| x % n)
+    };
+    range(2).all(|z| range(1).all(|y| range(0).all(|x| !setup.is_solid(setup.index([x, y, z])))))
+}
+
+/// Block numbers around a place.
+#[must_use]
+pub fn numbers_around(layout: &Layout, place: usize) -> [u32; 27] {
+    layout.around(place).map(|at| layout.block_at(at))
+}
+
+/// Whether a block number names a block.
+#[inline(always)]
+#[must_use]
+pub fn exists(number: u32) -> bool {
+    number != NONE
+}

@@ -1,0 +1,90 @@
+//! What populations are stored as, and lines of the cache.
+
+use super::stores;
+
+/// A stored population, f − w.
+pub trait Element: Copy + Default + Send + Sync + PartialEq + 'static {
+    /// Numbers per cache line of 64 bytes.
+    const PER_LINE: usize;
+
+    /// Rounds to the stored precision.
+    fn from_f64(x: f64) -> Self;
+
+    /// Exact.
+    fn to_f64(self) -> f64;
+}
+
+impl Element for f64 {
+    const PER_LINE: usize = 8;
+
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self
+    }
+}
+
+impl Element for f32 {
+    const PER_LINE: usize = 16;
+
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x as Self
+    }
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+/// Numbers that start at a cache line.
+#[derive(Clone, Debug, Default)]
+pub struct Aligned<E> {
+    data: Vec<E>,
+    start: usize,
+    len: usize,
+}
+
+impl<E: Element> Aligned<E> {
+    /// `len` zeros.
+    #[must_use]
+    pub fn zeros(len: usize) -> Self {
+        let data = vec![E::default(); len + E::PER_LINE];
+        // Falls back to the first number where the address cannot be known; only speed depends on it.
+        let start = match data.as_ptr().align_offset(stores::LINE_BYTES) {
+            offset if offset < E::PER_LINE => offset,
+            _ => 0,
+        };
+        Self { data, start, len }
+    }
+
+    /// The numbers.
+    #[inline(always)]
+    #[must_use]
+    pub fn get(&self) -> &[E] {
+        &self.data[self.start..self.start + self.len]
+    }
+
+    /// The numbers.
+    #[inline(always)]
+    pub fn get_mut(&mut self) -> &mut [E] {
+        &mut self.data[self.start..self.start + self.len]
+    }
+
+    /// Whether nothing is held.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        (self.data.len() * size_of::<E>()) as u64
+    }
+}

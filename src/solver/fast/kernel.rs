@@ -1,0 +1,320 @@
+//! The packed pass over one block: gather, collide, store.
+
+use super::block::Block;
+use super::element::{Aligned, Element};
+use super::layout::Layout;
+use super::registers::Registers;
+use super::rim::Rim;
+use super::stage::{Around, Class, MOST, Stage};
+use super::stores;
+use super::surface::{InterfaceCell, SurfaceView};
+use crate::lane::Lane;
+use crate::lane::unroll::{directions, three};
+use crate::lattice::moments::Moments;
+use crate::lattice::{C, Q};
+use crate::solver::physics::Physics;
+use crate::solver::plain::cell::runaway;
+use crate::solver::run::Stopped;
+use crate::solver::setup::Setup;
+
+/// What all blocks of a pass share; everything here is only read.
+pub struct Task<'a, P, E> {
+    pub setup: &'a Setup,
+    pub physics: &'a P,
+    pub layout: &'a Layout,
+    pub blocks: &'a [Block],
+    /// Populations after the last collision, or before the first one.
+    pub old: &'a [Aligned<E>],
+    /// Whether `old` holds populations before the first collision.
+    pub fresh: bool,
+    /// Body force of this step.
+    pub force: [f64; 3],
+    pub step: u64,
+    /// Wall velocities by number.
+    pub velocities: &'a [[f64; 3]],
+    /// Whether stores go past the cache.
+    pub past_cache: bool,
+    /// Free surface, if any.
+    pub surface: Option<SurfaceView<'a>>,
+}
+
+/// What a block owns in a pass.
+pub struct Own<'a, E> {
+    pub number: usize,
+    /// Populations after this collision.
+    pub new: &'a mut Aligned<E>,
+    /// Cells at walls and open faces; empty if nothing is kept of them.
+    pub rim: &'a mut [Rim],
+    /// ρ − 1 by cell; empty unless somebody asks for it.
+    pub density: &'a mut [f64],
+    /// ω⁺ of the previous step; empty unless lagged.
+    pub lag: &'a mut [f64],
+    /// Interface cells of the block.
+    pub interface: &'a mut [InterfaceCell],
+}
+
+/// What a pass over a block found.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Outcome {
+    /// First cell, by number in the box, that fails the guard.
+    pub failed: Option<(usize, Stopped)>,
+    /// Σ(ρ − 1) over liquid cells; only with a free surface.
+    pub liquid_excess: f64,
+}
+
+/// Numbers per direction: one line more than the cells, so that the directions do not fall on the same sets
+/// of the cache and a row may be read one number early or late.
+#[must_use]
+pub fn stride<E: Element>(layout: &Layout) -> usize {
+    layout.block_cells() + E::PER_LINE
+}
+
+/// Numbers per block.
+#[must_use]
+pub fn block_len<E: Element>(layout: &Layout) -> usize {
+    Q * stride::<E>(layout)
+}
+
+/// Where the rows begin that a row of cells is gathered from: entry of the neighbourhood and first number, by
+/// direction, before the shift along the row.
+#[derive(Clone, Copy)]
+struct Rows([(usize, usize); Q]);
+
+impl Rows {
+    #[inline(always)]
+    fn new(layout: &Layout, stride: usize, local: usize) -> Self {
+        let [_, j, k] = layout.coordinates(local);
+        let [n, m, l] = layout.block;
+        Self(directions(
+            #[inline(always)]
+            |i| {
+                let (o1, j) = step_back(j, C[i][1], m);
+                let (o2, k) = step_back(k, C[i][2], l);
+                (1 + 3 * o1 + 9 * o2, i * stride + n * (j + m * k))
+            },
+        ))
+    }
+}
+
+/// Block offset plus one and coordinate of the cell that a velocity component `c` comes from.
+#[inline(always)]
+fn step_back(at: usize, c: i32, size: usize) -> (usize, usize) {
+    match c {
+        1 if at == 0 => (0, size - 1),
+        1 => (1, at - 1),
+        -1 if at + 1 == size => (2, 0),
+        -1 => (1, at + 1),
+        _ => (1, at),
+    }
+}
+
+/// The populations that arrive in an ordinary pack whose first cell is number `x` of its row.
+#[inline(always)]
+fn gather<R: Registers>(
+    around: &Around<R::Element>,
+    rows: &Rows,
+    x: usize,
+    row: usize,
+) -> [R::Pack; Q] {
+    directions(
+        #[inline(always)]
+        |i| {
+            let (entry, base) = rows.0[i];
+            let from = around.slices[entry];
+            match C[i][0] {
+                1 => {
+                    let shifted = R::load(&from[base + x - 1..]);
+                    if x == 0 {
+                        R::with_first(shifted, around.slices[entry - 1][base + row - 1])
+                    } else {
+                        shifted
+                    }
+                }
+                -1 => {
+                    let shifted = R::load(&from[base + x + 1..]);
+                    if x + R::WIDTH == row {
+                        R::with_last(shifted, around.slices[entry + 1][base])
+                    } else {
+                        shifted
+                    }
+                }
+                _ => R::load(&from[base + x..]),
+            }
+        },
+    )
+}
+
+/// Collides every fluid cell of a block.
+#[inline(always)]
+pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<R::Element>) -> Outcome {
+    let mut outcome = Outcome::default();
+    let block = &task.blocks[own.number];
+    let layout = task.layout;
+    let line = R::Element::PER_LINE;
+    let stride = stride::<R::Element>(layout);
+    let around = Around::new(task, own.number);
+    let row = layout.block[0];
+    let straight = layout.is_straight() && !task.fresh;
+    let mut rows = Rows([(0, 0); Q]);
+    let mut stage = Stage::new();
+    let mut liquid = [0.0; MOST];
+    for pack in 0..block.usable.len() {
+        let local = pack * line;
+        let x = local & (row - 1);
+        if x == 0 && straight {
+            rows = Rows::new(layout, stride, local);
+        }
+        let class = Class::new(task, block, own.number, pack, line);
+        if class.fluid == 0 {
+            continue;
+        }
+        let ordinary = straight && class.ordinary;
+        if !ordinary {
+            stage.fill(task, block, own, &around, &class, local);
+        }
+        for part in (0..line).step_by(R::WIDTH) {
+            let h = if ordinary {
+                gather::<R>(&around, &rows, x + part, row)
+            } else {
+                directions(
+                    #[inline(always)]
+                    |i| R::load(&stage.populations[i][part..]),
+                )
+            };
+            let force = three(
+                #[inline(always)]
+                |a| {
+                    if class.interface == 0 {
+                        R::Pack::splat(task.force[a])
+                    } else {
+                        R::load_wide(&stage.force[a][part..])
+                    }
+                },
+            );
+            let m = task.physics.moments(&h, &force);
+            let omega = omega::<R, P>(task, block, own, local + part, &m);
+            guard::<R, P>(task, block, (local + part, class.fluid >> part), &m, omega, &mut outcome);
+            if !own.lag.is_empty() {
+                R::store_wide(omega, &mut own.lag[local + part..]);
+            }
+            if !own.density.is_empty() {
+                R::store_wide(m.d_rho, &mut own.density[local + part..]);
+            }
+            if task.surface.is_some() && ordinary {
+                let sum = R::load_wide(&liquid[part..]) + m.d_rho;
+                R::store_wide(sum, &mut liquid[part..]);
+            }
+            if !ordinary {
+                stage.keep::<R>(&m, omega, part);
+            }
+            let post = task.physics.collide(&h, &m, omega);
+            if R::WIDTH == line && !task.past_cache {
+                let new = own.new.get_mut();
+                for i in 0..Q {
+                    R::store(post[i], &mut new[i * stride + local..]);
+                }
+            } else {
+                for i in 0..Q {
+                    R::store(post[i], &mut stage.populations[i][part..]);
+                }
+            }
+        }
+        if !ordinary {
+            outcome.liquid_excess += stage.finish(block, own, &class, local);
+        }
+        if R::WIDTH != line || task.past_cache {
+            let new = own.new.get_mut();
+            for i in 0..Q {
+                let to = &mut new[i * stride + local..][..line];
+                if task.past_cache {
+                    stores::line_past_cache(to, &stage.populations[i][..line]);
+                } else {
+                    to.copy_from_slice(&stage.populations[i][..line]);
+                }
+            }
+        }
+    }
+    for sum in liquid {
+        outcome.liquid_excess += sum;
+    }
+    outcome
+}
+
+/// ω⁺ of a pack: one law after the other where it holds several fluids.
+#[inline(always)]
+fn omega<R: Registers, P: Physics>(
+    task: &Task<P, R::Element>,
+    block: &Block,
+    own: &Own<R::Element>,
+    local: usize,
+    m: &Moments<R::Pack>,
+) -> R::Pack {
+    if let Some(omega) = task.physics.constant_omega() {
+        return R::Pack::splat(omega);
+    }
+    let q = task.physics.stress_magnitude(m);
+    let previous =
+        if own.lag.is_empty() { R::Pack::zero() } else { R::load_wide(&own.lag[local..]) };
+    let numbers = block.fluid.get(local..local + R::WIDTH).unwrap_or(&[0]);
+    let mut omega = R::Pack::zero();
+    let mut numbered = [0.0; MOST];
+    for (number, n) in numbered.iter_mut().zip(numbers) {
+        *number = f64::from(*n);
+    }
+    let lanes = R::load_wide(&numbered);
+    for (k, &fluid) in numbers.iter().enumerate() {
+        if numbers[..k].contains(&fluid) {
+            continue;
+        }
+        let own_law = task.physics.omega(fluid, m.rho, q, previous);
+        // Fluids are taken in the order of the lanes; a lane keeps the value of its own.
+        let fluid = R::Pack::splat(f64::from(fluid));
+        let here = <R::Pack as Lane>::and(fluid.less_equal(lanes), lanes.less_equal(fluid));
+        omega = if numbers.len() == 1 { own_law } else { <R::Pack as Lane>::select(here, own_law, omega) };
+    }
+    omega
+}
+
+/// Looks for the first fluid cell of a pack that fails the guard; `lanes`: the fluid ones.
+#[inline(always)]
+fn guard<R: Registers, P: Physics>(
+    task: &Task<P, R::Element>,
+    block: &Block,
+    (local, lanes): (usize, u16),
+    m: &Moments<R::Pack>,
+    omega: R::Pack,
+    outcome: &mut Outcome,
+) {
+    let limit = task.setup.speed_limit;
+    let speed2 = (m.u[0] * m.u[0] + m.u[1] * m.u[1]) + m.u[2] * m.u[2];
+    let slow = speed2.less_equal(R::Pack::splat(limit * limit));
+    let good = <R::Pack as Lane>::and(slow, R::Pack::zero().less(m.rho));
+    if <R::Pack as Lane>::any(<R::Pack as Lane>::not(good)) {
+        let mut suspects = [[0.0; MOST]; 5];
+        for (row, lane) in suspects.iter_mut().zip([m.rho, omega, m.u[0], m.u[1], m.u[2]]) {
+            R::store_wide(lane, row);
+        }
+        report(task, block, (local, R::WIDTH, lanes), &suspects, outcome);
+    }
+}
+
+/// Writes down the first cell that fails; `suspects`: ρ, ω⁺ and u by lane.
+#[inline(never)]
+fn report<P: Physics, E>(
+    task: &Task<P, E>,
+    block: &Block,
+    (local, width, lanes): (usize, usize, u16),
+    suspects: &[[f64; MOST]; 5],
+    outcome: &mut Outcome,
+) {
+    for lane in (0..width).filter(|lane| lanes >> lane & 1 != 0) {
+        let [rho, omega, x, y, z] = suspects.map(|row| row[lane]);
+        let m = Moments { d_rho: rho - 1.0, rho, u: [x, y, z], force: [0.0; 3], q: [0.0; 6] };
+        let Some(what) = runaway(&m, task.setup.speed_limit) else { continue };
+        let at = task.layout.cell(block.origin, local + lane);
+        let cell = task.setup.index(at);
+        if outcome.failed.is_none_or(|(first, _)| cell < first) {
+            outcome.failed = Some((cell, Stopped { step: task.step, cell: at, what, tau: 1.0 / omega }));
+        }
+    }
+}

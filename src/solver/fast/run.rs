@@ -1,0 +1,322 @@
+//! Arrays and steps of the fast backend.
+
+use rayon::prelude::*;
+
+use super::block::{Block, Place, Velocities};
+use super::element::{Aligned, Element};
+use super::instructions::{self, Chosen};
+use super::kernel::{Outcome, Own, Task, block_len, stride};
+use super::layout::{Layout, NONE};
+use super::rim::{Rim, WallTask, correct};
+use super::stage::{Around, after, open_link, wall_link};
+use super::stores;
+use super::surface::Surface;
+use crate::lattice::Q;
+use crate::lattice::moments::density_excess;
+use crate::solver::initial;
+use crate::solver::physics::Physics;
+use crate::solver::plain::starting_omega;
+use crate::solver::run::{StartError, Stopped};
+use crate::solver::setup::{Setup, WallRule, YieldTreatment};
+
+/// Populations above this many bytes do not fit the caches: stores then go past them.
+const CACHED: u64 = 24 << 20;
+
+/// A flow being stepped in blocks.
+pub struct FastRun<P> {
+    pub(super) setup: Setup,
+    pub(super) physics: P,
+    pub(super) chosen: Chosen,
+    pub(super) layout: Layout,
+    pub(super) velocities: Velocities,
+    pub(super) blocks: Vec<Block>,
+    /// Populations after the last collision; before the first one at step 0.
+    pub(super) old: Vec<Aligned<f64>>,
+    /// Where the next collision puts its result.
+    pub(super) new: Vec<Aligned<f64>>,
+    pub(super) rim: Vec<Vec<Rim>>,
+    /// ρ − 1 before the last collision; only with the viscosity-independent wall.
+    pub(super) density: Vec<Vec<f64>>,
+    /// ω⁺ of the last collision; only for the lagged treatment.
+    pub(super) lag: Vec<Vec<f64>>,
+    pub(super) surface: Option<Surface>,
+    /// No collision yet.
+    pub(super) fresh: bool,
+    pub(super) step: u64,
+    pub(super) fluid_cells: u64,
+    pub(super) pool: Option<rayon::ThreadPool>,
+}
+
+/// Cells per pack of the blocks.
+pub(super) const LINE: usize = <f64 as Element>::PER_LINE;
+
+impl<P: Physics> FastRun<P> {
+    /// Allocates and initialises.
+    ///
+    /// # Errors
+    /// The setup is inconsistent, or asks for what this backend does not have.
+    pub fn start(setup: &Setup, physics: P, chosen: Chosen) -> Result<Self, StartError> {
+        crate::solver::check::check(setup)?;
+        let unsupported = |feature| StartError::Unsupported { backend: "fast", feature };
+        if setup.stress_source {
+            return Err(unsupported("the experimental source in the third moments"));
+        }
+        let pool = (setup.threads > 1)
+            .then(|| rayon::ThreadPoolBuilder::new().num_threads(setup.threads).build().ok())
+            .flatten();
+        let mut run = Self {
+            setup: setup.clone(),
+            physics,
+            chosen,
+            layout: Layout::new(setup.extents, LINE),
+            velocities: Velocities::default(),
+            blocks: Vec::new(),
+            old: Vec::new(),
+            new: Vec::new(),
+            rim: Vec::new(),
+            density: Vec::new(),
+            lag: Vec::new(),
+            surface: None,
+            fresh: true,
+            step: 0,
+            fluid_cells: 0,
+            pool,
+        };
+        if setup.free_surface.is_some() {
+            run.start_surface()?;
+        } else {
+            for place in 0..run.layout.places() {
+                run.add_block(place);
+            }
+            run.fill_in();
+        }
+        Ok(run)
+    }
+
+    /// Whether walls are corrected \[B3\].
+    pub(super) fn corrected(&self) -> bool {
+        self.setup.wall_rule == WallRule::ViscosityIndependent
+    }
+
+    /// Makes the block at a place, unless it would hold no cell that can be fluid; returns its number.
+    pub(super) fn add_block(&mut self, place: usize) -> Option<usize> {
+        let block = Block::new(&self.setup, &self.layout, place, LINE, &mut self.velocities);
+        if block.usable.iter().all(|&lanes| lanes == 0) {
+            return None;
+        }
+        let cells = self.layout.block_cells();
+        let number = self.blocks.len();
+        self.layout.set_block(place, number as u32);
+        let open = block.rim.iter().any(|cell| cell.open);
+        let rim = if self.corrected() || open { block.rim.len() } else { 0 };
+        let walls = self.corrected() && self.has_walls();
+        self.rim.push(vec![Rim::default(); rim]);
+        self.density.push(vec![0.0; if walls { cells } else { 0 }]);
+        let lagged = matches!(self.setup.yielding, YieldTreatment::LaggedClamped { .. });
+        self.lag.push(vec![0.0; if lagged { cells } else { 0 }]);
+        self.old.push(Aligned::zeros(block_len::<f64>(&self.layout)));
+        self.new.push(Aligned::zeros(block_len::<f64>(&self.layout)));
+        self.blocks.push(block);
+        Some(number)
+    }
+
+    /// Whether any cell may touch a wall.
+    fn has_walls(&self) -> bool {
+        use crate::solver::setup::Face;
+        let wall = |face: &Face| matches!(face, Face::NoSlip | Face::Moving(_));
+        !self.setup.solids.is_empty() || self.setup.faces.iter().flatten().any(wall)
+    }
+
+    /// Starting populations of every cell, block by block.
+    fn fill_in(&mut self) {
+        let force = self.setup.force.at(0);
+        let (setup, layout) = (&self.setup, &self.layout);
+        let stride = stride::<f64>(layout);
+        let work = |((block, old), lag): ((&Block, &mut Aligned<f64>), &mut Vec<f64>)| {
+            let mut count = 0;
+            for local in 0..layout.block_cells() {
+                if block.usable[local / LINE] >> (local % LINE) & 1 == 0 {
+                    continue;
+                }
+                count += 1;
+                let at = layout.cell(block.origin, local);
+                let point = setup.initial.as_ref().map_or(initial::REST, |flow| flow(at));
+                let cell = setup.index(at);
+                let f = initial::start(&point, &setup.law(cell), &force);
+                for (i, f) in f.iter().enumerate() {
+                    old.get_mut()[i * stride + local] = *f;
+                }
+                if let Some(omega) = lag.get_mut(local) {
+                    *omega = starting_omega(setup, cell);
+                }
+            }
+            count
+        };
+        let blocks = &self.blocks;
+        let (old, lag) = (&mut self.old, &mut self.lag);
+        self.fluid_cells = match &self.pool {
+            Some(pool) => {
+                pool.install(|| blocks.par_iter().zip(old.par_iter_mut()).zip(lag.par_iter_mut()).map(work).sum())
+            }
+            None => blocks.iter().zip(old.iter_mut()).zip(lag.iter_mut()).map(work).sum(),
+        };
+    }
+
+    pub(super) fn task(&self, force: [f64; 3]) -> Task<'_, P, f64> {
+        Task {
+            setup: &self.setup,
+            physics: &self.physics,
+            layout: &self.layout,
+            blocks: &self.blocks,
+            old: &self.old,
+            fresh: self.fresh,
+            force,
+            step: self.step,
+            velocities: &self.velocities.list,
+            past_cache: self.population_bytes() > CACHED,
+            surface: self.surface.as_ref().map(Surface::view),
+        }
+    }
+
+    fn population_bytes(&self) -> u64 {
+        self.old.iter().chain(&self.new).map(Aligned::bytes).sum()
+    }
+
+    /// One time step.
+    fn advance_one(&mut self) -> Result<(), Stopped> {
+        let force = self.setup.force.at(self.step);
+        let outcomes = self.collide_pass(force);
+        self.close_last_step(&outcomes)?;
+        let failed = outcomes.iter().filter_map(|outcome| outcome.failed).min_by_key(|&(cell, _)| cell);
+        if let Some((_, stopped)) = failed {
+            return Err(stopped);
+        }
+        self.wall_pass(&force);
+        std::mem::swap(&mut self.old, &mut self.new);
+        self.fresh = false;
+        self.surface_pass(&force);
+        self.step += 1;
+        Ok(())
+    }
+
+    fn collide_pass(&mut self, force: [f64; 3]) -> Vec<Outcome> {
+        let mut new = std::mem::take(&mut self.new);
+        let mut rim = std::mem::take(&mut self.rim);
+        let mut density = std::mem::take(&mut self.density);
+        let mut lag = std::mem::take(&mut self.lag);
+        let mut interface = self.surface.as_mut().map_or_else(Vec::new, |s| std::mem::take(&mut s.interface));
+        interface.resize_with(new.len(), Vec::new);
+        let task = self.task(force);
+        let own: Vec<_> = new
+            .iter_mut()
+            .zip(&mut rim)
+            .zip(&mut density)
+            .zip(&mut lag)
+            .zip(&mut interface)
+            .enumerate()
+            .map(|(number, ((((new, rim), density), lag), interface))| {
+                Own { number, new, rim, density, lag, interface }
+            })
+            .collect();
+        let chosen = self.chosen;
+        let outcomes = each(self.pool.as_ref(), own, |mut own| {
+            let outcome = instructions::run(chosen, &task, &mut own);
+            stores::fence();
+            outcome
+        });
+        (self.new, self.rim, self.density, self.lag) = (new, rim, density, lag);
+        if let Some(surface) = &mut self.surface {
+            surface.interface = interface;
+        }
+        outcomes
+    }
+
+    fn wall_pass(&mut self, force: &[f64; 3]) {
+        if !self.corrected() {
+            return;
+        }
+        let mut rim = std::mem::take(&mut self.rim);
+        let task = WallTask {
+            physics: &self.physics,
+            layout: &self.layout,
+            density: &self.density,
+            sourced: self.setup.stress_source,
+            limited: self.surface.is_some(),
+        };
+        let items = rim.iter_mut().enumerate().filter(|(_, rim)| !rim.is_empty()).collect();
+        each(self.pool.as_ref(), items, |(number, rim): (usize, &mut Vec<Rim>)| {
+            let force_of = |local| self.force_of(number, local, force);
+            correct(&task, &self.blocks[number], rim, force_of, |place| self.is_fluid(place));
+        });
+        self.rim = rim;
+    }
+
+    /// Body force of a cell; `None` where it holds no fluid.
+    pub(super) fn force_of(&self, number: usize, local: usize, force: &[f64; 3]) -> Option<[f64; 3]> {
+        match &self.surface {
+            None => Some(*force),
+            Some(surface) => surface.force_at(self, number, local, force),
+        }
+    }
+
+    /// Whether a cell holds fluid.
+    pub(super) fn is_fluid(&self, place: Place) -> bool {
+        let Some(surface) = &self.surface else { return true };
+        match self.layout.block_at(place.block as usize) {
+            NONE => false,
+            number => surface.kinds[number as usize][place.local as usize].is_fluid(),
+        }
+    }
+
+    /// Populations of a fluid cell before the next collision: what a plain solver stores.
+    pub(super) fn arrived(&self, number: usize, local: usize) -> [f64; Q] {
+        let task = self.task([0.0; 3]);
+        let own = after(&task, number, local);
+        if self.fresh {
+            return own;
+        }
+        if let Some(cell) = self.surface.as_ref().and_then(|s| s.interface_cell(number, local)) {
+            return cell.f;
+        }
+        let block = &self.blocks[number];
+        let around = Around::new(&task, number);
+        let stride = stride::<f64>(&self.layout);
+        std::array::from_fn(|i| {
+            let Some(link) = block.link(local, i, LINE) else {
+                let (entry, from) = self.layout.upstream(local, i);
+                return around.slices[entry][i * stride + from];
+            };
+            match link.from {
+                super::block::From::Cell { cell, direction } => {
+                    let number = self.layout.block_at(cell.block as usize) as usize;
+                    self.old[number].get()[usize::from(direction) * stride + cell.local as usize]
+                }
+                super::block::From::Wall { velocity, .. } => {
+                    let u = &self.velocities.list[velocity as usize];
+                    let rho = 1.0 + density_excess(&own);
+                    wall_link(&task, number, &self.rim[number], link, rho, u)
+                }
+                super::block::From::Open => open_link(&task, number, &self.rim[number], link),
+            }
+        })
+    }
+
+    pub(super) fn run(&mut self, steps: u64) -> Result<(), Stopped> {
+        for _ in 0..steps {
+            self.advance_one()?;
+        }
+        self.settle()
+    }
+}
+
+/// Runs `work` on every item, on the pool if there is one; results in order.
+pub(super) fn each<I: Send, T: Send>(
+    pool: Option<&rayon::ThreadPool>,
+    items: Vec<I>,
+    work: impl Fn(I) -> T + Sync + Send,
+) -> Vec<T> {
+    match pool {
+        Some(pool) => pool.install(|| items.into_par_iter().map(work).collect()),
+        None => items.into_iter().map(work).collect(),
+    }
+}

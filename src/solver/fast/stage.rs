@@ -1,0 +1,304 @@
+//! Packs that are not ordinary: their populations are put together one by one before they are collided.
+
+use super::block::{Block, From, Link, numbers_around};
+use super::element::{Aligned, Element};
+use super::kernel::{Own, Task, stride};
+use super::layout::{Layout, NONE};
+use super::registers::Registers;
+use crate::lattice::moments::{Moments, density_excess};
+use crate::lattice::{Q, opposite};
+use crate::solver::physics::Physics;
+
+/// Most cells side by side: a line of f32.
+pub const MOST: usize = 16;
+
+/// What the cells of a pack are.
+#[derive(Clone, Copy, Debug)]
+pub struct Class {
+    /// Bit per lane: fluid.
+    pub fluid: u16,
+    /// Bit per lane: interface.
+    pub interface: u16,
+    /// All lanes are fluid, none is interface, all links are the grid's.
+    pub ordinary: bool,
+}
+
+impl Class {
+    /// Of a pack of a block.
+    #[inline(always)]
+    pub fn new<P, E>(task: &Task<P, E>, block: &Block, number: usize, pack: usize, line: usize) -> Self {
+        let (fluid, interface) = match &task.surface {
+            None => (block.usable[pack], 0),
+            Some(surface) => surface.masks[number][pack],
+        };
+        let all = u16::MAX >> (16 - line);
+        let links = block.first_link[pack] != block.first_link[pack + 1];
+        Self { fluid, interface, ordinary: fluid == all && interface == 0 && !links }
+    }
+}
+
+/// The populations around a block: 27 slices, the block's own where there is none.
+pub struct Around<'a, E> {
+    /// As [`Layout::around`].
+    pub slices: [&'a [E]; 27],
+}
+
+impl<'a, E: Element> Around<'a, E> {
+    /// Around a block.
+    pub fn new<P>(task: &Task<'a, P, E>, number: usize) -> Self {
+        let old: &'a [Aligned<E>] = task.old;
+        let own = old[number].get();
+        let numbers = numbers_around(task.layout, task.blocks[number].place);
+        let slices = numbers.map(|n| match n {
+            NONE => own,
+            n => old[n as usize].get(),
+        });
+        Self { slices }
+    }
+}
+
+/// Columns of one pack.
+pub struct Stage<E> {
+    /// Populations before collision, then after.
+    pub populations: [[E; MOST]; Q],
+    /// Body force; filled where the pack has interface cells.
+    pub force: [[f64; MOST]; 3],
+    /// u, ω⁺ and ρ − 1 of this collision.
+    velocity: [[f64; MOST]; 3],
+    omega: [f64; MOST],
+    d_rho: [f64; MOST],
+}
+
+impl<E: Element> Stage<E> {
+    /// Zeros.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            populations: [[E::default(); MOST]; Q],
+            force: [[0.0; MOST]; 3],
+            velocity: [[0.0; MOST]; 3],
+            omega: [0.0; MOST],
+            d_rho: [0.0; MOST],
+        }
+    }
+
+    /// Gathers a pack that starts at `local`.
+    #[inline(never)]
+    pub fn fill<P: Physics>(
+        &mut self,
+        task: &Task<P, E>,
+        block: &Block,
+        own: &mut Own<E>,
+        around: &Around<E>,
+        class: &Class,
+        local: usize,
+    ) {
+        let line = E::PER_LINE;
+        let stride = stride::<E>(task.layout);
+        let own_old = task.old[own.number].get();
+        for (i, column) in self.populations.iter_mut().enumerate() {
+            if task.fresh {
+                column[..line].copy_from_slice(&own_old[i * stride + local..][..line]);
+            } else {
+                gather_row(task.layout, around, i, stride, local, &mut column[..line]);
+            }
+        }
+        if !task.fresh {
+            self.fill_links(task, block, own, class, local);
+        }
+        if class.interface != 0 {
+            self.fill_interface(task, own, local);
+        }
+        let idle = !class.fluid;
+        for lane in (0..line).filter(|lane| idle >> lane & 1 != 0) {
+            for column in &mut self.populations {
+                column[lane] = E::default();
+            }
+        }
+        self.save_rim(block, own, class, local);
+    }
+
+    /// Irregular links of liquid cells; those of interface cells were taken when mass was exchanged.
+    fn fill_links<P: Physics>(
+        &mut self,
+        task: &Task<P, E>,
+        block: &Block,
+        own: &Own<E>,
+        class: &Class,
+        local: usize,
+    ) {
+        let mut rho = (usize::MAX, 1.0);
+        for link in block.links_of(local / E::PER_LINE) {
+            let at = usize::from(link.local);
+            let lane = at - local;
+            if (class.fluid & !class.interface) >> lane & 1 == 0 {
+                continue;
+            }
+            let value = match link.from {
+                From::Cell { cell, direction } => {
+                    let number = task.layout.block_at(cell.block as usize);
+                    task.old[number as usize].get()
+                        [usize::from(direction) * stride::<E>(task.layout) + cell.local as usize]
+                }
+                From::Wall { velocity, .. } => {
+                    if rho.0 != at {
+                        rho = (at, 1.0 + density_excess(&after(task, own.number, at)));
+                    }
+                    let u = &task.velocities[velocity as usize];
+                    E::from_f64(wall_link(task, own.number, own.rim, link, rho.1, u))
+                }
+                From::Open => E::from_f64(open_link(task, own.number, own.rim, link)),
+            };
+            self.populations[usize::from(link.direction)][lane] = value;
+        }
+    }
+
+    fn fill_interface<P: Physics>(&mut self, task: &Task<P, E>, own: &Own<E>, local: usize) {
+        let Some(surface) = &task.surface else { return };
+        self.force = task.force.map(|f| [f; MOST]);
+        let start = own.interface.partition_point(|cell| usize::from(cell.local) < local);
+        for cell in &own.interface[start..] {
+            let Some(lane) = Some(usize::from(cell.local) - local).filter(|&lane| lane < E::PER_LINE) else {
+                break;
+            };
+            for (column, f) in self.populations.iter_mut().zip(&cell.f) {
+                column[lane] = E::from_f64(*f);
+            }
+            let force = surface.force_of(own.number, usize::from(cell.local), &task.force, task.layout);
+            for a in 0..3 {
+                self.force[a][lane] = force[a];
+            }
+        }
+    }
+
+    /// Keeps what the walls need to know of this collision.
+    fn save_rim(&self, block: &Block, own: &mut Own<E>, class: &Class, local: usize) {
+        if own.rim.is_empty() {
+            return;
+        }
+        let start = block.rim.partition_point(|cell| usize::from(cell.local) < local);
+        for (cell, kept) in block.rim[start..].iter().zip(&mut own.rim[start..]) {
+            let Some(lane) = Some(usize::from(cell.local) - local).filter(|&lane| lane < E::PER_LINE) else {
+                break;
+            };
+            if class.fluid >> lane & 1 != 0 {
+                kept.f = std::array::from_fn(|i| self.populations[i][lane].to_f64());
+            }
+        }
+    }
+
+    /// Keeps u, ω⁺ and ρ of one part of the pack.
+    #[inline(always)]
+    pub fn keep<R: Registers<Element = E>>(&mut self, m: &Moments<R::Pack>, omega: R::Pack, part: usize) {
+        for a in 0..3 {
+            R::store_wide(m.u[a], &mut self.velocity[a][part..]);
+        }
+        R::store_wide(omega, &mut self.omega[part..]);
+        R::store_wide(m.d_rho, &mut self.d_rho[part..]);
+    }
+
+    /// Hands u and ω⁺ to the cells that need them after the pass; returns Σ(ρ − 1) over liquid cells.
+    pub fn finish(&self, block: &Block, own: &mut Own<E>, class: &Class, local: usize) -> f64 {
+        let line = E::PER_LINE;
+        let inside = |at: u16| Some(usize::from(at) - local).filter(|&lane| lane < line);
+        let u = |lane: usize| self.velocity.map(|row| row[lane]);
+        if !own.rim.is_empty() {
+            let start = block.rim.partition_point(|cell| usize::from(cell.local) < local);
+            for (cell, kept) in block.rim[start..].iter().zip(&mut own.rim[start..]) {
+                let Some(lane) = inside(cell.local) else { break };
+                (kept.velocity, kept.omega) = (u(lane), self.omega[lane]);
+            }
+        }
+        if class.interface != 0 {
+            let start = own.interface.partition_point(|cell| usize::from(cell.local) < local);
+            for cell in &mut own.interface[start..] {
+                let Some(lane) = inside(cell.local) else { break };
+                cell.velocity = u(lane);
+            }
+        }
+        let liquid = class.fluid & !class.interface;
+        (0..line).filter(|lane| liquid >> lane & 1 != 0).map(|lane| self.d_rho[lane]).sum()
+    }
+}
+
+impl<E: Element> Default for Stage<E> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// One direction of a pack from the grid of blocks.
+#[inline]
+fn gather_row<E: Element>(
+    layout: &Layout,
+    around: &Around<E>,
+    i: usize,
+    stride: usize,
+    local: usize,
+    to: &mut [E],
+) {
+    let (line, row) = (to.len(), layout.block[0]);
+    let shift = layout.velocity[i][0];
+    let x = local & (row - 1);
+    // The row without the shift along it, then the one end that may lie in the next block.
+    let (entry, first) = layout.upstream_row(local, i);
+    let base = i * stride + first;
+    let from = around.slices[entry];
+    match shift {
+        1 => {
+            let (head, tail) = to.split_at_mut(1);
+            head[0] = if x == 0 { around.slices[entry - 1][base + row - 1] } else { from[base + x - 1] };
+            tail.copy_from_slice(&from[base + x..][..line - 1]);
+        }
+        -1 => {
+            let (head, tail) = to.split_at_mut(line - 1);
+            head.copy_from_slice(&from[base + x + 1..][..line - 1]);
+            tail[0] = if x + line == row { around.slices[entry + 1][base] } else { from[base + x + line] };
+        }
+        _ => to.copy_from_slice(&from[base + x..][..line]),
+    }
+}
+
+/// Populations of a cell after the last collision.
+#[inline]
+pub fn after<P, E: Element>(task: &Task<P, E>, number: usize, local: usize) -> [f64; Q] {
+    let stride = stride::<E>(task.layout);
+    let own = task.old[number].get();
+    std::array::from_fn(|i| own[i * stride + local].to_f64())
+}
+
+/// What a wall sends back along a link \[B1\] \[B3\].
+#[inline]
+pub fn wall_link<P: Physics, E: Element>(
+    task: &Task<P, E>,
+    number: usize,
+    rim: &[super::rim::Rim],
+    link: &Link,
+    rho: f64,
+    velocity: &[f64; 3],
+) -> f64 {
+    let out = opposite(usize::from(link.direction));
+    let stride = stride::<E>(task.layout);
+    let leaving = task.old[number].get()[out * stride + usize::from(link.local)].to_f64();
+    let correction = rim.get(usize::from(link.rim)).map_or(0.0, |kept| kept.correction[out]);
+    task.physics.wall(leaving - correction, out, rho, velocity)
+}
+
+/// What an open face sends back: as gas where fluid leaves, as a wall at rest where it would come in.
+#[inline]
+pub fn open_link<P: Physics, E: Element>(
+    task: &Task<P, E>,
+    number: usize,
+    rim: &[super::rim::Rim],
+    link: &Link,
+) -> f64 {
+    let out = opposite(usize::from(link.direction));
+    let stride = stride::<E>(task.layout);
+    let leaving = task.old[number].get()[out * stride + usize::from(link.local)].to_f64();
+    let u = rim.get(usize::from(link.rim)).map_or([0.0; 3], |kept| kept.velocity);
+    if crate::lattice::equilibrium::dot(out, &u) > 0.0 {
+        task.physics.gas_link(leaving, out, &u, || leaving)
+    } else {
+        leaving
+    }
+}

@@ -1,0 +1,261 @@
+//! Registers of x86_64 as lanes.
+//!
+//! With arrays instead ([`crate::lane::Pack`]) the compiler has to find the vectors again: it takes five times
+//! as long to build and the code is up to four times slower. The intrinsics are the only reason for
+//! `unsafe` in this file.
+//!
+//! # Safety
+//! An operation of a register type may only be executed on a processor that has its instruction set. The
+//! types are private to the fast backend, which uses them only inside functions that are entered through
+//! [`super::instructions`], after the processor has been asked.
+
+use std::arch::x86_64::*;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::registers::Registers;
+use crate::lane::Lane;
+use crate::lane::powers;
+
+macro_rules! operator {
+    ($name:ident, $trait:ident, $method:ident, $intrinsic:ident) => {
+        impl $trait for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $intrinsic(self.0, other.0) })
+            }
+        }
+    };
+}
+
+/// One register type: its intrinsics, and what a mask is.
+macro_rules! register {
+    ($(#[$doc:meta])* $name:ident, $lanes:ident, $width:literal, $reg:ty, $mask:ty,
+     $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $splat:ident $load:ident $store:ident,
+     $to_int:ident $to_real:ident $splat_int:ident $add_int:ident $and_int:ident $or_int:ident $xor_int:ident
+     $left:ident $right:ident,
+     [$m:ident $a:ident $b:ident] $less:expr, $less_equal:expr, $select:expr, $and:expr, $not:expr, $any:expr) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub(super) struct $name($reg);
+
+        operator!($name, Add, add, $add);
+        operator!($name, Sub, sub, $sub);
+        operator!($name, Mul, mul, $mul);
+        operator!($name, Div, div, $div);
+
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                // SAFETY: see the head of the file.
+                Self(unsafe { $to_real($xor_int($to_int(self.0), $splat_int(i64::MIN))) })
+            }
+        }
+
+        impl $name {
+            #[inline(always)]
+            fn from_array(x: [f64; $width]) -> Self {
+                // SAFETY: the array holds as many numbers as the register; see the head of the file.
+                Self(unsafe { $load(x.as_ptr()) })
+            }
+            #[inline(always)]
+            fn to_array(self) -> [f64; $width] {
+                let mut x = [0.0; $width];
+                // SAFETY: as above.
+                unsafe { $store(x.as_mut_ptr(), self.0) };
+                x
+            }
+            /// 2ᵏ for an integral k in \[−1022, 1023\], as for `f64`.
+            #[inline(always)]
+            fn power_of_two(k: Self) -> Self {
+                let shifted = k + Self::splat(powers::ROUNDER);
+                let one = 1.0_f64.to_bits() as i64;
+                // SAFETY: see the head of the file.
+                Self(unsafe { $to_real($add_int($left::<52>($to_int(shifted.0)), $splat_int(one))) })
+            }
+        }
+
+        impl Lane for $name {
+            type Mask = $mask;
+
+            #[inline(always)]
+            fn splat(x: f64) -> Self {
+                // SAFETY: see the head of the file; so in the whole block.
+                Self(unsafe { $splat(x) })
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self(unsafe { $sqrt(self.0) })
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                Self(unsafe { $to_real($and_int($to_int(self.0), $splat_int(i64::MAX))) })
+            }
+            #[inline(always)]
+            fn scale_by_power_of_two(self, k: Self) -> Self {
+                let k = Self::larger(Self::smaller(k, Self::splat(2044.0)), Self::splat(-2044.0));
+                let first = powers::nearest(Self::splat(0.5) * k);
+                (self * Self::power_of_two(first)) * Self::power_of_two(k - first)
+            }
+            #[inline(always)]
+            fn exponent_mantissa(self) -> (Self, Self) {
+                const TWO_52: f64 = 4_503_599_627_370_496.0;
+                let (field, mantissa) = unsafe {
+                    let bits = $to_int(self.0);
+                    let high = $or_int($right::<52>(bits), $splat_int(TWO_52.to_bits() as i64));
+                    let low = $and_int(bits, $splat_int((1 << 52) - 1));
+                    ($to_real(high), $to_real($or_int(low, $splat_int(1.0_f64.to_bits() as i64))))
+                };
+                (Self(field) - Self::splat(TWO_52 + 1023.0), Self(mantissa))
+            }
+            #[inline(always)]
+            fn lookup<const K: usize>(self, table: &[[f64; K]]) -> [Self; K] {
+                let mut columns = [[0.0; $width]; K];
+                let at = self.to_array();
+                for lane in 0..$width {
+                    let row = at[lane].lookup(table);
+                    for k in 0..K {
+                        columns[k][lane] = row[k];
+                    }
+                }
+                let mut out = [self; K];
+                for k in 0..K {
+                    out[k] = Self::from_array(columns[k]);
+                }
+                out
+            }
+            #[inline(always)]
+            fn exp(self) -> Self {
+                powers::exp(self)
+            }
+            #[inline(always)]
+            fn exp_m1(self) -> Self {
+                let mut x = self.to_array();
+                for lane in &mut x {
+                    *lane = libm::expm1(*lane);
+                }
+                Self::from_array(x)
+            }
+            #[inline(always)]
+            fn ln(self) -> Self {
+                powers::ln(self)
+            }
+            #[inline(always)]
+            fn less(self, other: Self) -> $mask {
+                let ($a, $b) = (self.0, other.0);
+                unsafe { $less }
+            }
+            #[inline(always)]
+            fn less_equal(self, other: Self) -> $mask {
+                let ($a, $b) = (self.0, other.0);
+                unsafe { $less_equal }
+            }
+            #[inline(always)]
+            fn select(mask: $mask, then: Self, otherwise: Self) -> Self {
+                let ($m, $a, $b) = (mask, then.0, otherwise.0);
+                Self(unsafe { $select })
+            }
+            #[inline(always)]
+            fn and($a: $mask, $b: $mask) -> $mask {
+                unsafe { $and }
+            }
+            #[inline(always)]
+            fn not($m: $mask) -> $mask {
+                unsafe { $not }
+            }
+            #[inline(always)]
+            fn any($m: $mask) -> bool {
+                unsafe { $any }
+            }
+        }
+
+        /// These registers, populations stored in f64.
+        #[derive(Clone, Copy, Debug)]
+        pub(super) struct $lanes;
+
+        impl Registers for $lanes {
+            type Element = f64;
+            type Pack = $name;
+            const WIDTH: usize = $width;
+
+            #[inline(always)]
+            fn load(from: &[f64]) -> $name {
+                let from = &from[..$width];
+                // SAFETY: the slice holds as many numbers as the register; see the head of the file.
+                $name(unsafe { $load(from.as_ptr()) })
+            }
+            #[inline(always)]
+            fn store(pack: $name, to: &mut [f64]) {
+                let to = &mut to[..$width];
+                // SAFETY: as above.
+                unsafe { $store(to.as_mut_ptr(), pack.0) };
+            }
+            #[inline(always)]
+            fn load_wide(from: &[f64]) -> $name {
+                Self::load(from)
+            }
+            #[inline(always)]
+            fn store_wide(pack: $name, to: &mut [f64]) {
+                Self::store(pack, to);
+            }
+            #[inline(always)]
+            fn with_first(pack: $name, x: f64) -> $name {
+                let mut lanes = pack.to_array();
+                lanes[0] = x;
+                $name::from_array(lanes)
+            }
+            #[inline(always)]
+            fn with_last(pack: $name, x: f64) -> $name {
+                let mut lanes = pack.to_array();
+                lanes[$width - 1] = x;
+                $name::from_array(lanes)
+            }
+        }
+    };
+}
+
+register!(
+    /// Two numbers: what every x86_64 has.
+    Two, Sse2, 2, __m128d, __m128d,
+    _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_set1_pd _mm_loadu_pd _mm_storeu_pd,
+    _mm_castpd_si128 _mm_castsi128_pd _mm_set1_epi64x _mm_add_epi64 _mm_and_si128 _mm_or_si128 _mm_xor_si128
+    _mm_slli_epi64 _mm_srli_epi64,
+    [m a b] _mm_cmplt_pd(a, b),
+    _mm_cmple_pd(a, b),
+    _mm_or_pd(_mm_and_pd(m, a), _mm_andnot_pd(m, b)),
+    _mm_and_pd(a, b),
+    _mm_xor_pd(m, _mm_castsi128_pd(_mm_set1_epi64x(-1))),
+    _mm_movemask_pd(m) != 0
+);
+
+register!(
+    /// Four numbers.
+    Four, Avx2, 4, __m256d, __m256d,
+    _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd _mm256_set1_pd _mm256_loadu_pd
+    _mm256_storeu_pd,
+    _mm256_castpd_si256 _mm256_castsi256_pd _mm256_set1_epi64x _mm256_add_epi64 _mm256_and_si256 _mm256_or_si256
+    _mm256_xor_si256 _mm256_slli_epi64 _mm256_srli_epi64,
+    [m a b] _mm256_cmp_pd::<_CMP_LT_OQ>(a, b),
+    _mm256_cmp_pd::<_CMP_LE_OQ>(a, b),
+    _mm256_blendv_pd(b, a, m),
+    _mm256_and_pd(a, b),
+    _mm256_xor_pd(m, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))),
+    _mm256_movemask_pd(m) != 0
+);
+
+register!(
+    /// Eight numbers.
+    Eight, Avx512, 8, __m512d, u8,
+    _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd _mm512_sqrt_pd _mm512_set1_pd _mm512_loadu_pd
+    _mm512_storeu_pd,
+    _mm512_castpd_si512 _mm512_castsi512_pd _mm512_set1_epi64 _mm512_add_epi64 _mm512_and_si512 _mm512_or_si512
+    _mm512_xor_si512 _mm512_slli_epi64 _mm512_srli_epi64,
+    [m a b] _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b),
+    _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b),
+    _mm512_mask_blend_pd(m, b, a),
+    a & b,
+    !m,
+    m != 0
+);
