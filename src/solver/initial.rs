@@ -3,7 +3,7 @@
 use super::setup::FlowPoint;
 use crate::lattice::moments::{THIRD, populations};
 use crate::lattice::{Q, SYMMETRIC, pair};
-use crate::rheology::{Law, Rheology};
+use crate::rheology::Law;
 
 /// Strain-rate tensor ½(∇u + ∇uᵀ): xx, yy, zz, xy, xz, yz.
 #[must_use]
