@@ -169,7 +169,11 @@ impl Kernel for OmegaKernel {
 fn parity_of_every_law_and_treatment() {
     for law in LAWS {
         for treatment in TREATMENTS {
-            compare(&OmegaKernel(law.prepare(), treatment), &stresses(&law), &format!("{law:?} {treatment:?}"));
+            compare(
+                &OmegaKernel(law.prepare(), treatment),
+                &stresses(&law),
+                &format!("{law:?} {treatment:?}"),
+            );
         }
     }
 }

@@ -172,12 +172,19 @@ fn with_limits<L: Lane>(x: L, logarithm: L) -> L {
 /// Bit-stable; ln 1 = 0. At most 0.78 units in the last place, near 1 too.
 #[inline(always)]
 pub fn ln<L: Lane>(x: L) -> L {
+    with_limits(x, ln_of_positive(x))
+}
+
+/// [`ln`] of a positive, finite x only: its bits without its checks. Elsewhere a number without
+/// meaning, never a panic.
+#[inline(always)]
+pub fn ln_of_positive<L: Lane>(x: L) -> L {
     let Parts { k, f, half, rest } = parts(x);
     let whole = k * L::splat(LN2_HIGH);
     // |whole| is zero or larger than |f|: what the addition loses is found exactly.
     let high = whole + f;
     let lost = (whole - high) + f;
-    with_limits(x, high + (lost - (half - (rest + k * L::splat(LN2_LOW)))))
+    high + (lost - (half - (rest + k * L::splat(LN2_LOW))))
 }
 
 /// log₂ x; −∞ at zero, NaN below.
@@ -197,4 +204,54 @@ pub fn log2<L: Lane>(x: L) -> L {
     let whole = k + fraction;
     let lost = (k - whole) + fraction;
     with_limits(x, whole + (small + lost))
+}
+
+/// Best approximation of log₂(1 + t), 0 ≤ t ≤ 1, by a polynomial of degree seven: off by 3.6e-7.
+const ROUGH_LOG2: [f64; 8] = [
+    3.685_614_1e-7,
+    1.442_647_548_73,
+    -0.720_316_064_36,
+    0.472_086_916_24,
+    -0.321_960_285_46,
+    0.188_752_737_73,
+    -0.075_651_374_68,
+    0.014_440_352_49,
+];
+
+/// Best approximation of 2ᵗ, |t| ≤ ½, by a polynomial of degree five: off by 8e-8.
+const ROUGH_EXP2: [f64; 6] = [
+    1.000_000_075_45,
+    0.693_147_188_03,
+    0.240_221_074_85,
+    0.055_503_571_14,
+    0.009_676_031_92,
+    0.001_339_086_34,
+];
+
+/// log₂ x within 4e-7, for positive normal x: a start for an iteration.
+///
+/// # Exactness
+/// Bit-stable.
+#[inline(always)]
+pub fn rough_log2<L: Lane>(x: L) -> L {
+    let c = |k: usize| L::splat(ROUGH_LOG2[k]);
+    let (exponent, mantissa) = x.exponent_mantissa();
+    let t = mantissa - L::one();
+    let t2 = t * t;
+    let quartet = |k: usize| (c(k) + c(k + 1) * t) + (c(k + 2) + c(k + 3) * t) * t2;
+    exponent + (quartet(0) + quartet(4) * (t2 * t2))
+}
+
+/// 2ˣ within a relative error of 1e-7, for |x| ≤ 2000: a start for an iteration.
+///
+/// # Exactness
+/// Bit-stable.
+#[inline(always)]
+pub fn rough_exp2<L: Lane>(x: L) -> L {
+    let c = |k: usize| L::splat(ROUGH_EXP2[k]);
+    let k = nearest(x);
+    let t = x - k;
+    let t2 = t * t;
+    let low = (c(0) + c(1) * t) + (c(2) + c(3) * t) * t2;
+    (low + (c(4) + c(5) * t) * (t2 * t2)).scale_by_power_of_two(k)
 }

@@ -127,9 +127,7 @@ impl Law {
                 (sigma0 + herschel_bulkley::power_stress(k, n, gamma_dot)) / gamma_dot
             }
             Self::PowerLaw { k, n } => herschel_bulkley::power_stress(k, n, gamma_dot) / gamma_dot,
-            Self::Papanastasiou { sigma0, k, n, m } => {
-                Papanastasiou { sigma0, k, n, m }.viscosity(gamma_dot)
-            }
+            Self::Papanastasiou { sigma0, k, n, m } => Papanastasiou { sigma0, k, n, m }.viscosity(gamma_dot),
         }
     }
 }

@@ -27,9 +27,7 @@ impl Prepared {
                 Self::HerschelBulkley(HerschelBulkley::new(sigma0, k, n))
             }
             Law::PowerLaw { k, n } => Self::PowerLaw(PowerLaw::new(k, n)),
-            Law::Papanastasiou { sigma0, k, n, m } => {
-                Self::Papanastasiou(Papanastasiou { sigma0, k, n, m })
-            }
+            Law::Papanastasiou { sigma0, k, n, m } => Self::Papanastasiou(Papanastasiou { sigma0, k, n, m }),
         }
     }
 }

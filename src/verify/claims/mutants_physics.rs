@@ -59,8 +59,11 @@ impl Backend for Mistaken {
                 motion.spin = motion.spin.map(|w| -w);
             }
         }
-        let right =
-            Standard { laws: setup.fluids.iter().map(Law::prepare).collect(), treatment: setup.yielding, collision: setup.collision };
+        let right = Standard {
+            laws: setup.fluids.iter().map(Law::prepare).collect(),
+            treatment: setup.yielding,
+            collision: setup.collision,
+        };
         let wrong = Wrong { right, mistake: self.0 };
         match setup.free_surface {
             Some(_) => Ok(Box::new(SurfaceRun::start(&setup, wrong)?)),

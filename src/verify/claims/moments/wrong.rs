@@ -40,8 +40,11 @@ impl Backend for Wrong {
     }
 
     fn start(&self, setup: &Setup) -> Result<Box<dyn Run>, StartError> {
-        let base =
-            Standard { laws: setup.fluids.iter().map(Law::prepare).collect(), treatment: setup.yielding, collision: setup.collision };
+        let base = Standard {
+            laws: setup.fluids.iter().map(Law::prepare).collect(),
+            treatment: setup.yielding,
+            collision: setup.collision,
+        };
         Ok(Box::new(PlainRun::start(setup, WrongPhysics { base, mistake: self.0 })?))
     }
 }

@@ -43,7 +43,11 @@ impl Backend for SwappedBackend {
         match setup.collision {
             CollisionChoice::Trt(odd) => boxed(
                 setup,
-                Standard { laws: setup.fluids.iter().map(Law::prepare).collect(), treatment: setup.yielding, collision: Swapped(odd) },
+                Standard {
+                    laws: setup.fluids.iter().map(Law::prepare).collect(),
+                    treatment: setup.yielding,
+                    collision: Swapped(odd),
+                },
             ),
             _ => Plain.start(setup),
         }
