@@ -242,7 +242,7 @@ pub fn rough_log2<L: Lane>(x: L) -> L {
     exponent + (quartet(0) + quartet(4) * (t2 * t2))
 }
 
-/// 2ˣ within a relative error of 1e-7, for |x| ≤ 2000: a start for an iteration.
+/// 2ˣ within a relative error of 1.2e-7, for |x| ≤ 2000: a start for an iteration.
 ///
 /// # Exactness
 /// Bit-stable.
