@@ -100,8 +100,6 @@ fn everything<L: Lane>(x: L) -> Vec<L> {
         powers::ln(x),
         powers::log2(x),
         powers::ln_of_positive(x),
-        powers::rough_log2(x),
-        powers::rough_exp2(x),
         x.exp(),
         x.ln(),
         x.exp_m1(),
@@ -192,15 +190,6 @@ proptest! {
         prop_assume!(back.is_finite() && back2.is_finite());
         prop_assert!((back - x).abs() <= bound(powers::ln(x)), "{x:e}");
         prop_assert!((back2 - x).abs() <= bound(powers::log2(x)), "{x:e}");
-    }
-
-    /// The promised bounds of the rough ones.
-    #[test]
-    fn rough_ones(x in -1000.0_f64..1000.0, mantissa in 1.0_f64..2.0) {
-        let power = powers::exp2(x);
-        prop_assert!((powers::rough_exp2(x) / power - 1.0).abs() <= 1.2e-7);
-        let y = mantissa.scale_by_power_of_two(x.floor());
-        prop_assert!((powers::rough_log2(y) - powers::log2(y)).abs() <= 4e-7);
     }
 
     /// Chain rule, with the bits of the single number in the value.
