@@ -4,6 +4,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use std::hint::black_box;
 
 use lahar::collision::{Collision, CollisionChoice, OddRate};
+use lahar::lane::{Lane, Pack, powers};
 use lahar::lattice::moments::moments;
 use lahar::rheology::{Law, Rheology};
 use lahar::solver::initial::start;
@@ -46,12 +47,35 @@ fn collide(c: &mut Criterion) {
     group.finish();
 }
 
-/// The local solve [Y3] of one yielded cell, by law.
+/// Stresses of the benchmark: a decade above the yield stress.
+const STRESSES: [f64; 8] = [3e-4, 5e-5, 1.1e-5, 4e-4, 2e-5, 1e-4, 6e-5, 2e-4];
+
+/// The local solve [Y3], by law: one yielded cell, and eight at once (divide by eight).
 fn shear_rate(c: &mut Criterion) {
     let mut group = c.benchmark_group("shear_rate");
     for (name, law) in LAWS {
-        group.bench_function(name, |b| b.iter(|| law.shear_rate(black_box(1.0_f64), black_box(3e-4))));
+        let law = law.prepare();
+        group.throughput(Throughput::Elements(1));
+        group.bench_function(BenchmarkId::new("f64", name), |b| {
+            b.iter(|| law.shear_rate(black_box(1.0_f64), black_box(3e-4)));
+        });
+        group.throughput(Throughput::Elements(8));
+        group.bench_function(BenchmarkId::new("Pack<8>", name), |b| {
+            b.iter(|| law.shear_rate(black_box(Pack::<8>::one()), black_box(Pack(STRESSES))));
+        });
     }
+    group.finish();
+}
+
+/// exp and ln: one number and eight at once.
+fn power(c: &mut Criterion) {
+    let mut group = c.benchmark_group("power");
+    group.throughput(Throughput::Elements(1));
+    group.bench_function("exp f64", |b| b.iter(|| powers::exp(black_box(-3.7_f64))));
+    group.bench_function("ln f64", |b| b.iter(|| powers::ln(black_box(3e-4_f64))));
+    group.throughput(Throughput::Elements(8));
+    group.bench_function("exp Pack<8>", |b| b.iter(|| powers::exp(black_box(Pack(STRESSES)))));
+    group.bench_function("ln Pack<8>", |b| b.iter(|| powers::ln(black_box(Pack(STRESSES)))));
     group.finish();
 }
 
@@ -71,5 +95,5 @@ fn step(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, collide, shear_rate, step);
+criterion_group!(benches, collide, shear_rate, power, step);
 criterion_main!(benches);

@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::Lane;
+use super::{Lane, powers};
 
 /// Value and directional derivative. Comparisons look at the value only, so a branch is
 /// differentiated as taken.
@@ -75,15 +75,30 @@ impl Lane for Dual {
     fn abs(self) -> Self {
         if self.value < 0.0 { -self } else { self }
     }
+    /// Linear; k is a constant.
+    fn scale_by_power_of_two(self, k: Self) -> Self {
+        let scaled = |x: f64| x.scale_by_power_of_two(k.value);
+        Self { value: scaled(self.value), slope: scaled(self.slope) }
+    }
+    /// The exponent is a constant, the mantissa x 2⁻ᵉ.
+    fn exponent_mantissa(self) -> (Self, Self) {
+        let (exponent, mantissa) = self.value.exponent_mantissa();
+        let slope = self.slope.scale_by_power_of_two(-exponent);
+        (Self::constant(exponent), Self { value: mantissa, slope })
+    }
+    /// Rows are constants.
+    fn lookup<const K: usize>(self, table: &[[f64; K]]) -> [Self; K] {
+        self.value.lookup(table).map(Self::constant)
+    }
     fn exp(self) -> Self {
-        let value = libm::exp(self.value);
+        let value = powers::exp(self.value);
         Self { value, slope: value * self.slope }
     }
     fn exp_m1(self) -> Self {
-        Self { value: libm::expm1(self.value), slope: libm::exp(self.value) * self.slope }
+        Self { value: libm::expm1(self.value), slope: powers::exp(self.value) * self.slope }
     }
     fn ln(self) -> Self {
-        Self { value: libm::log(self.value), slope: self.slope / self.value }
+        Self { value: powers::ln(self.value), slope: self.slope / self.value }
     }
     fn less(self, other: Self) -> bool {
         self.value < other.value

@@ -1,13 +1,15 @@
 //! The only numeric abstraction: a number, or a pack of numbers that behaves like independent numbers.
 //!
 //! # Exactness
-//! A lane offers + − × ÷, √, |x|, comparison and selection, and exp, expm1 and ln from `libm`. No fused
-//! multiply-add, no reciprocal estimate, no hardware minimum or maximum (ties of signed zeros), and
+//! A lane offers + − × ÷, √, |x|, comparison and selection, three primitives on the bits of a number
+//! (exponent, power of two, row of a table), exp and ln built from these (see [`powers`]), and expm1
+//! from `libm`. No fused multiply-add, no reciprocal estimate, no hardware minimum or maximum (ties of signed zeros), and
 //! no lane reads another lane. An expression written once over [`Lane`] therefore gives the same
 //! bits for `f64` and for each entry of a [`Pack`].
 
 mod dual;
 mod pack;
+pub mod powers;
 pub mod unroll;
 
 use std::fmt::Debug;
@@ -35,11 +37,21 @@ pub trait Lane:
     fn sqrt(self) -> Self;
     /// Absolute value.
     fn abs(self) -> Self;
-    /// e^x, from `libm`.
+    /// self · 2ᵏ for an integral k, limited to \[−2044, 2044\]; rounded once, where the result is
+    /// subnormal; infinite where it is too large. A k that is not integral gives an unspecified number.
+    fn scale_by_power_of_two(self, k: Self) -> Self;
+    /// (e, m) with x = m 2ᵉ and m in \[1, 2), for positive normal x. From zero, subnormal, infinite,
+    /// negative and NaN arguments the bit fields are returned as they are: finite numbers without
+    /// meaning, the same in every kind of lane.
+    fn exponent_mantissa(self) -> (Self, Self);
+    /// Row number trunc(x) of the table, lane by lane: below zero and for NaN the first row, beyond the
+    /// end the last. An empty table gives NaN.
+    fn lookup<const K: usize>(self, table: &[[f64; K]]) -> [Self; K];
+    /// e^x, see [`powers::exp`].
     fn exp(self) -> Self;
     /// e^x − 1, from `libm`: accurate for small x.
     fn exp_m1(self) -> Self;
-    /// Natural logarithm, from `libm`.
+    /// Natural logarithm, see [`powers::ln`].
     fn ln(self) -> Self;
     /// `self < other`, false where either is NaN.
     fn less(self, other: Self) -> Self::Mask;
@@ -73,6 +85,18 @@ pub trait Lane:
     }
 }
 
+/// 2⁵²: in \[2⁵², 2⁵³) the low bits of a number are an integer.
+const TWO_52: f64 = 4_503_599_627_370_496.0;
+
+/// The mantissa field.
+const MANTISSA: u64 = (1 << 52) - 1;
+
+/// 2ᵏ for an integral k in \[−1022, 1023\]: k + bias put into the exponent field.
+#[inline(always)]
+fn power_of_two(k: f64) -> f64 {
+    f64::from_bits(((k + powers::ROUNDER).to_bits() << 52).wrapping_add(1.0_f64.to_bits()))
+}
+
 impl Lane for f64 {
     type Mask = bool;
 
@@ -89,8 +113,29 @@ impl Lane for f64 {
         f64::abs(self)
     }
     #[inline(always)]
+    fn scale_by_power_of_two(self, k: Self) -> Self {
+        let k = Self::larger(Self::smaller(k, 2044.0), -2044.0);
+        // In two halves: neither 2^half leaves the range of normal numbers.
+        let first = powers::nearest(0.5 * k);
+        (self * power_of_two(first)) * power_of_two(k - first)
+    }
+    #[inline(always)]
+    fn exponent_mantissa(self) -> (Self, Self) {
+        let bits = self.to_bits();
+        // The exponent field as a number: in the low bits of 2⁵², then without the 2⁵² and the bias.
+        let field = f64::from_bits((bits >> 52) | TWO_52.to_bits());
+        let mantissa = f64::from_bits((bits & MANTISSA) | 1.0_f64.to_bits());
+        (field - (TWO_52 + 1023.0), mantissa)
+    }
+    #[inline(always)]
+    fn lookup<const K: usize>(self, table: &[[f64; K]]) -> [Self; K] {
+        // Conversion truncates and saturates; NaN becomes 0.
+        let row = (self as u32 as usize).min(table.len().saturating_sub(1));
+        table.get(row).copied().unwrap_or([f64::NAN; K])
+    }
+    #[inline(always)]
     fn exp(self) -> Self {
-        libm::exp(self)
+        powers::exp(self)
     }
     #[inline(always)]
     fn exp_m1(self) -> Self {
@@ -98,7 +143,7 @@ impl Lane for f64 {
     }
     #[inline(always)]
     fn ln(self) -> Self {
-        libm::log(self)
+        powers::ln(self)
     }
     #[inline(always)]
     fn less(self, other: Self) -> bool {

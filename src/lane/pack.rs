@@ -3,7 +3,7 @@
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::Lane;
+use super::{Lane, powers};
 
 /// `N` independent numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,8 +50,22 @@ impl<const N: usize> Lane for Pack<N> {
         Self(self.0.map(f64::abs))
     }
     #[inline(always)]
+    fn scale_by_power_of_two(self, k: Self) -> Self {
+        Self(from_fn(|i| self.0[i].scale_by_power_of_two(k.0[i])))
+    }
+    #[inline(always)]
+    fn exponent_mantissa(self) -> (Self, Self) {
+        let both = self.0.map(f64::exponent_mantissa);
+        (Self(both.map(|x| x.0)), Self(both.map(|x| x.1)))
+    }
+    #[inline(always)]
+    fn lookup<const K: usize>(self, table: &[[f64; K]]) -> [Self; K] {
+        let rows = self.0.map(|x| x.lookup(table));
+        from_fn(|column| Self(from_fn(|i| rows[i][column])))
+    }
+    #[inline(always)]
     fn exp(self) -> Self {
-        Self(self.0.map(libm::exp))
+        powers::exp(self)
     }
     #[inline(always)]
     fn exp_m1(self) -> Self {
@@ -59,7 +73,7 @@ impl<const N: usize> Lane for Pack<N> {
     }
     #[inline(always)]
     fn ln(self) -> Self {
-        Self(self.0.map(libm::log))
+        powers::ln(self)
     }
     #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {

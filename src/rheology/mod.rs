@@ -5,6 +5,8 @@ mod herschel_bulkley;
 mod newtonian;
 mod papanastasiou;
 mod power_law;
+mod power_sum;
+mod prepared;
 pub mod relaxation;
 
 use serde::{Deserialize, Serialize};
@@ -16,9 +18,11 @@ pub use herschel_bulkley::HerschelBulkley;
 pub use newtonian::Newtonian;
 pub use papanastasiou::Papanastasiou;
 pub use power_law::PowerLaw;
+pub use power_sum::PowerSum;
+pub use prepared::Prepared;
 
-/// A monotone law σ(γ̇) in lattice units.
-pub trait Rheology: Copy + Send + Sync + 'static {
+/// A monotone law σ(γ̇) in lattice units, ready for use in every cell.
+pub trait Rheology: Clone + Send + Sync + 'static {
     /// The relaxation time, if it is the same at every shear rate \[L6\]: then no shear rate is
     /// computed. The kinematic viscosity is held constant, at ρ = 1.
     #[inline(always)]
@@ -42,7 +46,8 @@ pub trait Rheology: Copy + Send + Sync + 'static {
     }
 }
 
-/// A constitutive law in lattice units (reference density 1, so dynamic = kinematic values).
+/// A constitutive law in lattice units (reference density 1, so dynamic = kinematic values): parameters
+/// only. [`Law::prepare`] makes of it what runs compute with.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Law {
@@ -96,55 +101,33 @@ impl Law {
             Self::Newtonian { .. } | Self::PowerLaw { .. } | Self::Papanastasiou { .. } => 0.0,
         }
     }
-}
 
-macro_rules! for_each_law {
-    ($law:expr, $name:ident => $body:expr) => {
-        match *$law {
-            Law::Newtonian { mu } => {
-                let $name = Newtonian { mu };
-                $body
-            }
-            Law::Bingham { sigma0, mu } => {
-                let $name = Bingham { sigma0, mu };
-                $body
-            }
-            Law::HerschelBulkley { sigma0, k, n } => {
-                let $name = HerschelBulkley::new(sigma0, k, n);
-                $body
-            }
-            Law::PowerLaw { k, n } => {
-                let $name = PowerLaw::new(k, n);
-                $body
-            }
-            Law::Papanastasiou { sigma0, k, n, m } => {
-                let $name = Papanastasiou { sigma0, k, n, m };
-                $body
-            }
+    /// The law with what its local solve needs (a table, for the laws with a power), made once per run.
+    #[must_use]
+    pub fn prepare(&self) -> Prepared {
+        Prepared::new(self)
+    }
+
+    /// τ = ½ + 3μ of the law that has the same one everywhere \[L6\].
+    #[must_use]
+    pub fn constant_tau(&self) -> Option<f64> {
+        match *self {
+            Self::Newtonian { mu } => Newtonian { mu }.constant_tau(),
+            _ => None,
         }
-    };
-}
+    }
 
-/// Any law, chosen per call: for flows of several fluids.
-impl Rheology for Law {
-    #[inline]
-    fn constant_tau(&self) -> Option<f64> {
-        for_each_law!(self, law => law.constant_tau())
-    }
-    #[inline]
-    fn stress<L: Lane>(&self, gamma_dot: L) -> L {
-        for_each_law!(self, law => law.stress(gamma_dot))
-    }
-    #[inline]
-    fn shear_rate<L: Lane>(&self, rho: L, q: L) -> L {
-        for_each_law!(self, law => law.shear_rate(rho, q))
-    }
-    #[inline]
-    fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
-        for_each_law!(self, law => law.tangent_viscosity(gamma_dot))
-    }
-    #[inline]
-    fn viscosity<L: Lane>(&self, gamma_dot: L) -> L {
-        for_each_law!(self, law => law.viscosity(gamma_dot))
+    /// Apparent dynamic viscosity σ(γ̇)/γ̇ at γ̇ > 0: the bits of the prepared law, without preparing it.
+    #[must_use]
+    pub fn viscosity(&self, gamma_dot: f64) -> f64 {
+        match *self {
+            Self::Newtonian { mu } => mu,
+            Self::Bingham { sigma0, mu } => Bingham { sigma0, mu }.viscosity(gamma_dot),
+            Self::HerschelBulkley { sigma0, k, n } => {
+                (sigma0 + herschel_bulkley::power_stress(k, n, gamma_dot)) / gamma_dot
+            }
+            Self::PowerLaw { k, n } => herschel_bulkley::power_stress(k, n, gamma_dot) / gamma_dot,
+            Self::Papanastasiou { sigma0, k, n, m } => Papanastasiou { sigma0, k, n, m }.viscosity(gamma_dot),
+        }
     }
 }

@@ -5,7 +5,7 @@ use super::herschel_bulkley::HerschelBulkley;
 use crate::lane::Lane;
 
 /// Power-law fluid: Herschel-Bulkley without yield stress.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PowerLaw(HerschelBulkley);
 
 impl PowerLaw {

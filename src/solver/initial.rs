@@ -3,7 +3,7 @@
 use super::setup::FlowPoint;
 use crate::lattice::moments::{THIRD, populations};
 use crate::lattice::{Q, SYMMETRIC, pair};
-use crate::rheology::{Law, Rheology};
+use crate::rheology::Law;
 
 /// Rest at the reference density: where nothing else is asked for.
 pub const REST: FlowPoint = FlowPoint { density: 1.0, velocity: [0.0; 3], gradient: [[0.0; 3]; 3] };

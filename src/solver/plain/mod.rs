@@ -60,8 +60,11 @@ fn standard<R, C>(law: R, treatment: YieldTreatment, collision: C) -> Standard<R
 }
 
 fn shared_loop(setup: &Setup) -> Result<Box<dyn Run>, StartError> {
-    let physics =
-        Standard { laws: setup.fluids.clone(), treatment: setup.yielding, collision: setup.collision };
+    let physics = Standard {
+        laws: setup.fluids.iter().map(Law::prepare).collect(),
+        treatment: setup.yielding,
+        collision: setup.collision,
+    };
     boxed(setup, physics)
 }
 

@@ -8,7 +8,7 @@ use crate::lattice::Q;
 use crate::lattice::W;
 use crate::lattice::equilibrium::dot;
 use crate::lattice::moments::{Moments, deviator, magnitude, momentum, non_equilibrium, second};
-use crate::rheology::Law;
+use crate::rheology::{Law, Prepared};
 use crate::solver::physics::{Physics, Standard};
 use crate::solver::plain::{PlainRun, SurfaceRun};
 use crate::solver::run::{Backend, Run, StartError};
@@ -59,8 +59,11 @@ impl Backend for Mistaken {
                 motion.spin = motion.spin.map(|w| -w);
             }
         }
-        let right =
-            Standard { laws: setup.fluids.clone(), treatment: setup.yielding, collision: setup.collision };
+        let right = Standard {
+            laws: setup.fluids.iter().map(Law::prepare).collect(),
+            treatment: setup.yielding,
+            collision: setup.collision,
+        };
         let wrong = Wrong { right, mistake: self.0 };
         match setup.free_surface {
             Some(_) => Ok(Box::new(SurfaceRun::start(&setup, wrong)?)),
@@ -72,7 +75,7 @@ impl Backend for Mistaken {
 /// Right physics, laws and collision chosen at run time, with one method overridden.
 #[derive(Clone, Debug)]
 struct Wrong {
-    right: Standard<Law, CollisionChoice>,
+    right: Standard<Prepared, CollisionChoice>,
     mistake: Mistake,
 }
 

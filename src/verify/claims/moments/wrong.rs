@@ -5,7 +5,7 @@ use crate::collision::{Bgk, Collision, CollisionChoice};
 use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::moments::{Moments, density_excess, moments, momentum, non_equilibrium, second};
-use crate::rheology::Law;
+use crate::rheology::{Law, Prepared};
 use crate::solver::physics::{Physics, Standard};
 use crate::solver::plain::PlainRun;
 use crate::solver::run::{Backend, Run, StartError};
@@ -40,15 +40,18 @@ impl Backend for Wrong {
     }
 
     fn start(&self, setup: &Setup) -> Result<Box<dyn Run>, StartError> {
-        let base =
-            Standard { laws: setup.fluids.clone(), treatment: setup.yielding, collision: setup.collision };
+        let base = Standard {
+            laws: setup.fluids.iter().map(Law::prepare).collect(),
+            treatment: setup.yielding,
+            collision: setup.collision,
+        };
         Ok(Box::new(PlainRun::start(setup, WrongPhysics { base, mistake: self.0 })?))
     }
 }
 
 #[derive(Clone)]
 struct WrongPhysics {
-    base: Standard<Law, CollisionChoice>,
+    base: Standard<Prepared, CollisionChoice>,
     mistake: Mistake,
 }
 

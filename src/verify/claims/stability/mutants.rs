@@ -4,7 +4,7 @@ use crate::collision::{Collision, CollisionChoice, OddRate, Trt};
 use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::moments::Moments;
-use crate::rheology::Law;
+use crate::rheology::{Law, Prepared};
 use crate::solver::physics::{Physics, Standard};
 use crate::solver::plain::{Plain, PlainRun};
 use crate::solver::run::{Backend, Run, StartError};
@@ -43,14 +43,18 @@ impl Backend for SwappedBackend {
         match setup.collision {
             CollisionChoice::Trt(odd) => boxed(
                 setup,
-                Standard { laws: setup.fluids.clone(), treatment: setup.yielding, collision: Swapped(odd) },
+                Standard {
+                    laws: setup.fluids.iter().map(Law::prepare).collect(),
+                    treatment: setup.yielding,
+                    collision: Swapped(odd),
+                },
             ),
             _ => Plain.start(setup),
         }
     }
 }
 
-fn boxed(setup: &Setup, physics: Standard<Law, Swapped>) -> Result<Box<dyn Run>, StartError> {
+fn boxed(setup: &Setup, physics: Standard<Prepared, Swapped>) -> Result<Box<dyn Run>, StartError> {
     fn any<P: Physics>(setup: &Setup, physics: P) -> Result<Box<dyn Run>, StartError> {
         Ok(Box::new(PlainRun::start(setup, physics)?))
     }
