@@ -88,15 +88,18 @@ macro_rules! for_each_collision {
 
 /// Any operator, chosen per call: for analysis and for rarely used combinations.
 impl Collision for CollisionChoice {
+    #[inline(always)]
     fn collide<L: Lane>(&self, h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q] {
         for_each_collision!(self, operator => operator.collide(h, m, omega))
     }
+    #[inline(always)]
     fn odd_omega<L: Lane>(&self, omega: L) -> L {
         for_each_collision!(self, operator => operator.odd_omega(omega))
     }
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
         for_each_collision!(self, operator => operator.odd_departure(h, m))
     }
+    #[inline(always)]
     fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
         for_each_collision!(self, operator => operator.wanted_odd_excess(omega))
     }

@@ -12,7 +12,7 @@ use super::Lane;
 
 /// 1.5·2⁵²: adding it rounds |x| < 2⁵¹ to the nearest integer (ties to even), which stands in the low
 /// bits of the sum.
-pub(super) const ROUNDER: f64 = 6_755_399_441_055_744.0;
+pub(crate) const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// 1.5·2²⁶: adding and subtracting it rounds |x| < 2²⁵ to a multiple of 2⁻²⁶.
 const COARSE_ROUNDER: f64 = 100_663_296.0;
@@ -35,11 +35,16 @@ const INVERSE_LN2_LOW: f64 = 1.925_962_991_126_617_5e-8;
 /// Σ c_k x^k for k < 12, in pairs (Estrin): short chains of dependent operations.
 #[inline(always)]
 fn polynomial<L: Lane>(x: L, c: &[f64; 12]) -> L {
-    let c = |k: usize| L::splat(c[k]);
     let x2 = x * x;
     let x4 = x2 * x2;
-    let quartet = |k: usize| (c(k) + c(k + 1) * x) + (c(k + 2) + c(k + 3) * x) * x2;
-    (quartet(0) + quartet(4) * x4) + quartet(8) * (x4 * x4)
+    (quartet(x, x2, c, 0) + quartet(x, x2, c, 4) * x4) + quartet(x, x2, c, 8) * (x4 * x4)
+}
+
+/// Four terms of a polynomial from coefficient `k` on.
+#[inline(always)]
+fn quartet<L: Lane>(x: L, x2: L, c: &[f64; 12], k: usize) -> L {
+    let c0 = L::splat(c[k]) + L::splat(c[k + 1]) * x;
+    c0 + (L::splat(c[k + 2]) + L::splat(c[k + 3]) * x) * x2
 }
 
 /// 1/(k+2)!: (eʳ − 1 − r)/r². The next term is below 5e-18 at |r| = ½ ln 2.

@@ -45,23 +45,23 @@ macro_rules! for_each_law {
 }
 
 impl Rheology for Prepared {
-    #[inline]
+    #[inline(always)]
     fn constant_tau(&self) -> Option<f64> {
         for_each_law!(self, law => law.constant_tau())
     }
-    #[inline]
+    #[inline(always)]
     fn stress<L: Lane>(&self, gamma_dot: L) -> L {
         for_each_law!(self, law => law.stress(gamma_dot))
     }
-    #[inline]
+    #[inline(always)]
     fn shear_rate<L: Lane>(&self, rho: L, q: L) -> L {
         for_each_law!(self, law => law.shear_rate(rho, q))
     }
-    #[inline]
+    #[inline(always)]
     fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
         for_each_law!(self, law => law.tangent_viscosity(gamma_dot))
     }
-    #[inline]
+    #[inline(always)]
     fn viscosity<L: Lane>(&self, gamma_dot: L) -> L {
         for_each_law!(self, law => law.viscosity(gamma_dot))
     }

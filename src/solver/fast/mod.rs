@@ -15,7 +15,7 @@ pub mod surface;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use crate::collision::{Bgk, CentralMoment, CollisionChoice};
+use crate::collision::{CentralMoment, CollisionChoice};
 use crate::rheology::{Bingham, HerschelBulkley, Law, Newtonian};
 use crate::solver::physics::{Physics, Standard};
 use crate::solver::run::{Backend, Run, StartError};
@@ -55,11 +55,8 @@ impl Backend for Fast {
                 let (laws, collision) = (vec![HerschelBulkley::new(sigma0, k, n)], CentralMoment { odd });
                 boxed(setup, Standard { laws, treatment, collision }, chosen)
             }
-            (CollisionChoice::Bgk, &[Law::Newtonian { mu }]) => {
-                boxed(setup, Standard { laws: vec![Newtonian { mu }], treatment, collision: Bgk }, chosen)
-            }
             _ => {
-                let (laws, collision) = (setup.fluids.clone(), setup.collision);
+                let (laws, collision) = (setup.fluids.iter().map(Law::prepare).collect(), setup.collision);
                 boxed(setup, Standard { laws, treatment, collision }, chosen)
             }
         }

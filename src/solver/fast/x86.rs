@@ -159,15 +159,24 @@ macro_rules! register {
             }
             #[inline(always)]
             fn and($a: $mask, $b: $mask) -> $mask {
-                unsafe { $and }
+                #[allow(unused_unsafe)]
+                unsafe {
+                    $and
+                }
             }
             #[inline(always)]
             fn not($m: $mask) -> $mask {
-                unsafe { $not }
+                #[allow(unused_unsafe)]
+                unsafe {
+                    $not
+                }
             }
             #[inline(always)]
             fn any($m: $mask) -> bool {
-                unsafe { $any }
+                #[allow(unused_unsafe)]
+                unsafe {
+                    $any
+                }
             }
         }
 
