@@ -8,6 +8,7 @@
 
 mod dual;
 mod pack;
+pub mod streaming;
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
