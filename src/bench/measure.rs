@@ -103,7 +103,7 @@ pub(super) fn group(
     let mut subjects = Vec::new();
     let mut free = available_memory().map(|bytes| (HEADROOM * bytes as f64) as u64);
     for case in group.cases.iter().filter(|case| wanted(case.name)) {
-        start(options, group, case, &mut free, &mut subjects, &mut shortage, &mut report.notes)?;
+        start(options, group, case, &mut free, &mut subjects, &mut shortage, report)?;
     }
     for subject in &mut subjects {
         subject.warm_up(options)?;
@@ -130,13 +130,13 @@ fn start<'a>(
     free: &mut Option<u64>,
     subjects: &mut Vec<Subject<'a>>,
     shortage: &mut Option<BenchError>,
-    notes: &mut Vec<String>,
+    report: &mut Report,
 ) -> Result<(), BenchError> {
     let mut setup = (case.setup)(options.scale());
     for backend in backends() {
         if backend.name() == "plain" && setup.cells() > options.plain_cells() {
             let limit = options.plain_cells();
-            notes.push(format!("{}: not on plain, whose limit here is {limit} cells", case.name));
+            report.leave_out(case.name, format!("plain is given at most {limit} cells here"));
             continue;
         }
         let predicted = predict(&setup, Layout::of(backend.name())).run();
@@ -146,11 +146,9 @@ fn start<'a>(
             }
             if let Some(available) = free.filter(|&available| predicted > available) {
                 let what = format!("{} on {} with {threads} threads", case.name, backend.name());
-                notes.push(format!(
-                    "{what}: left out, it needs {} and {} are left",
-                    human(predicted),
-                    human(available)
-                ));
+                let needed = human(predicted);
+                let left = human(available);
+                report.leave_out(&what, format!("memory: {needed} are needed and {left} are left"));
                 shortage.get_or_insert(BenchError::OutOfMemory { what, needed: predicted, available });
                 continue;
             }
@@ -162,7 +160,7 @@ fn start<'a>(
                     subjects.push(Subject { case, backend, threads, run, predicted, steps: 1, slices });
                 }
                 Err(StartError::Unsupported { backend, feature }) => {
-                    notes.push(format!("{}: {backend} does not have {feature}", case.name));
+                    report.leave_out(case.name, format!("{backend} does not have {feature}"));
                 }
                 Err(source) => return Err(BenchError::Start { case: case.name.to_owned(), source }),
             }

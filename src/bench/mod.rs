@@ -65,10 +65,11 @@ impl Options {
         if self.quick { 100_000 } else { 1_000_000 }
     }
 
-    /// Bytes of each of the three arrays the bandwidth is measured on: well beyond the last-level cache.
+    /// Bytes of each of the three arrays the bandwidth is measured on: one alone is well beyond the
+    /// last-level cache.
     fn array_bytes(&self, machine: &Machine) -> u64 {
         let cache = machine.last_cache_bytes.unwrap_or(32 << 20);
-        if self.quick { (2 * cache).max(64 << 20) } else { (4 * cache).max(256 << 20) }
+        if self.quick { (4 * cache).max(128 << 20) } else { (8 * cache).max(256 << 20) }
     }
 
     /// 1, 2, 4, … and the largest.
@@ -99,7 +100,25 @@ pub struct Report {
     /// Ratios of them.
     pub ratios: Vec<Ratio>,
     /// What was left out, and why.
-    pub notes: Vec<String>,
+    pub left_out: Vec<LeftOut>,
+}
+
+/// Cases that were not measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LeftOut {
+    /// Why.
+    pub because: String,
+    /// Which.
+    pub cases: Vec<String>,
+}
+
+impl Report {
+    fn leave_out(&mut self, case: &str, because: String) {
+        match self.left_out.iter_mut().find(|note| note.because == because) {
+            Some(note) => note.cases.push(case.to_owned()),
+            None => self.left_out.push(LeftOut { because, cases: vec![case.to_owned()] }),
+        }
+    }
 }
 
 /// Best bandwidth of any kind, as cell updates.
@@ -142,7 +161,7 @@ pub fn run(options: &Options, say: &mut dyn FnMut(&str)) -> Result<Report, Bench
         ceilings: Vec::new(),
         cases: Vec::new(),
         ratios: Vec::new(),
-        notes: Vec::new(),
+        left_out: Vec::new(),
         machine,
     };
     measure_bandwidth(options, &mut report, say)?;

@@ -29,15 +29,15 @@ impl fmt::Display for Report {
         if !self.ratios.is_empty() {
             ratios(f, &self.ratios)?;
         }
-        if !self.notes.is_empty() {
+        if !self.left_out.is_empty() {
             writeln!(f, "\nLeft out")?;
         }
-        self.notes.iter().try_for_each(|note| writeln!(f, "  {note}"))
+        self.left_out.iter().try_for_each(|note| writeln!(f, "  {}: {}", note.because, note.cases.join(", ")))
     }
 }
 
-/// Rows of equally many cells; the first column is aligned to the left, the others to the right.
-fn aligned(f: &mut fmt::Formatter<'_>, rows: &[Vec<String>]) -> fmt::Result {
+/// Rows of equally many cells; the first `left` columns are aligned to the left, the others to the right.
+fn aligned(f: &mut fmt::Formatter<'_>, rows: &[Vec<String>], left: usize) -> fmt::Result {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let length = |text: &String| text.chars().count();
     let widths: Vec<usize> = (0..columns)
@@ -46,7 +46,7 @@ fn aligned(f: &mut fmt::Formatter<'_>, rows: &[Vec<String>]) -> fmt::Result {
     for row in rows {
         let mut line = String::new();
         for (c, (text, &width)) in row.iter().zip(&widths).enumerate() {
-            line += &if c == 0 { format!("  {text:<width$}") } else { format!("  {text:>width$}") };
+            line += &if c < left { format!("  {text:<width$}") } else { format!("  {text:>width$}") };
         }
         writeln!(f, "{}", line.trim_end())?;
     }
@@ -78,7 +78,7 @@ fn bandwidth(f: &mut fmt::Formatter<'_>, report: &Report) -> fmt::Result {
         ceilings.extend([format!("{:.1}", ceiling.mlups), String::new()]);
     }
     rows.push(ceilings);
-    aligned(f, &rows)
+    aligned(f, &rows, 1)
 }
 
 fn threads(count: usize) -> String {
@@ -112,7 +112,7 @@ fn cases(f: &mut fmt::Formatter<'_>, cases: &[CaseSpeed]) -> fmt::Result {
             yielded,
         ]);
     }
-    aligned(f, &rows)?;
+    aligned(f, &rows, 2)?;
     for case in cases.iter().filter(|case| !case.passes.is_empty()) {
         let passes: Vec<String> =
             case.passes.iter().map(|(name, share)| format!("{name} {:.0} %", 100.0 * share)).collect();
@@ -145,5 +145,5 @@ fn ratios(f: &mut fmt::Formatter<'_>, ratios: &[Ratio]) -> fmt::Result {
             format!("{:.3}–{:.3}", ratio.ratio.low, ratio.ratio.high),
         ]);
     }
-    aligned(f, &rows)
+    aligned(f, &rows, 4)
 }
