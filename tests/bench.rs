@@ -71,7 +71,7 @@ fn report_as_json_has_bandwidth_ceiling_and_cases() {
     assert!(names.iter().any(|name| name.contains("2 threads / 1")), "{names:?}");
 }
 
-/// Every case of at most 10⁵ cells starts, runs into its flow and keeps its mass; those of a kind run alike.
+/// Every case of at most 10⁵ cells starts and runs; what is meant to be mostly yielded is.
 #[test]
 fn cases_run_and_those_meant_to_yield_do() {
     for group in &GROUPS {
@@ -81,7 +81,9 @@ fn cases_run_and_those_meant_to_yield_do() {
                 continue;
             }
             let mut run = Plain.start(&setup).unwrap_or_else(|error| panic!("{}: {error}", case.name));
-            run.advance(30).unwrap_or_else(|stopped| panic!("{}: {stopped:?}", case.name));
+            // A dam needs some steps before all of it moves; the vortices move from the start.
+            let steps = if setup.free_surface.is_some() { 30 } else { 4 };
+            run.advance(steps).unwrap_or_else(|stopped| panic!("{}: {stopped:?}", case.name));
             let fields = run.fields();
             let fluid: Vec<usize> =
                 (0..setup.cells()).filter(|&cell| fields.is_fluid(cell, setup.is_solid(cell))).collect();

@@ -9,6 +9,7 @@
 pub mod bandwidth;
 pub mod cases;
 mod error;
+mod flows;
 mod machine;
 mod measure;
 mod statistics;

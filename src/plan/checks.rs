@@ -43,7 +43,8 @@ fn fits(scene: &Scene, cells: u128, needed: u128, available: Option<u64>) -> Res
     let axes = super::cells::extents(&scene.domain).iter().filter(|&&n| n > 1).count().max(1);
     let excess = needed as f64 / available.max(1) as f64;
     let spacing = scene.domain.spacing_m;
-    let spacing_needed = spacing * libm::pow(excess, 1.0 / axes as f64);
+    // Half a unit in the last printed digit above, so that what is printed is not too little.
+    let spacing_needed = spacing * libm::pow(excess, 1.0 / axes as f64) * 1.0005;
     Err(PlanProblem::OutOfMemory {
         cells: limit(cells),
         needed: limit(needed),

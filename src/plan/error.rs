@@ -44,7 +44,7 @@ pub enum PlanProblem {
     NothingRemoved { spacing: f64 },
     /// More memory than there is.
     #[error(
-        "{cells} cells need {}\n  allowed: at most the {} that are available\n  way out: `domain.spacing_m` of {spacing_needed:.3e} or more instead of {spacing}, or one cell along periodic axes on which nothing changes", human(*needed), human(*available)
+        "{cells} cells need {}\n  allowed: at most the {} that are available\n  way out: `domain.spacing_m` of {spacing_needed:.3e} m or more instead of {spacing} m, or one cell along periodic axes on which nothing changes", human(*needed), human(*available)
     )]
     OutOfMemory {
         /// Cells of the box.
