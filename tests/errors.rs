@@ -78,9 +78,9 @@ fn command_exits_with_2_and_the_same_message() {
 fn refuses_what_does_not_fit_into_memory() {
     let text = include_str!("../scenes/verify/taylor_green_3d.json");
     let scene = scene::from_json(text, "taylor_green_3d.json").expect("a good scene");
-    // 32³ cells of 404 bytes are 13.2 MB.
-    assert!(Plan::with_memory(&scene, Some(13_300_000)).is_ok());
-    let error = Plan::with_memory(&scene, Some(13_000_000)).expect_err("too little memory");
+    // 32³ cells of 496 bytes are 16.3 MB.
+    assert!(Plan::with_memory(&scene, Some(16_400_000)).is_ok());
+    let error = Plan::with_memory(&scene, Some(16_000_000)).expect_err("too little memory");
     assert!(matches!(*error.problem, PlanProblem::OutOfMemory { cells: 32_768, .. }), "{error}");
     assert_eq!(error.path, "domain");
     snapshot("out_of_memory", &error);
@@ -102,10 +102,10 @@ fn refuses_one_byte_too_little_for_walls_and_surfaces() {
     }
 }
 
-/// 1500³ cells need a terabyte: refused by both commands before anything is made.
+/// 1500³ cells need 1.7 terabytes: refused by both commands before anything is made.
 #[test]
 fn commands_refuse_what_does_not_fit() {
-    let limit = 3_300_000_000_u64 * 304;
+    let limit = 3_375_000_000_u64 * 496;
     if lahar::plan::available_memory().is_none_or(|bytes| bytes > limit) {
         // The system does not say what it has, or has it.
         return;
@@ -129,7 +129,7 @@ fn commands_refuse_what_does_not_fit() {
             .expect("it starts");
         let message = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{message}");
-        for part in ["3375000000 cells need 1269.", " GiB\n  allowed: at most the ", "`domain.spacing_m` of "]
+        for part in ["3375000000 cells need 1559.", " GiB\n  allowed: at most the ", "`domain.spacing_m` of "]
         {
             assert!(message.contains(part), "`{part}` in {message}");
         }

@@ -99,6 +99,9 @@ const SURFACE: u64 = 1 + 1 + 8 + 8 + 8 + 24;
 const INERTIA: u64 = 24 + 24;
 /// Fill and kind while fields are written.
 const SURFACE_FIELDS: u64 = 8 + 1;
+/// Pressure, velocity, stress and shear rate in SI units, and four marks, while a picture of the box is
+/// written.
+const PICTURE: u64 = (1 + 3 + 6 + 1) * 8 + 4;
 /// Scratch of the plan itself: shapes, distances between walls, columns of fluid.
 const PLANNING: u64 = 16;
 
@@ -142,6 +145,7 @@ pub fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
         items.push(per_cell("fluid numbers", Part::Walls, 1));
     }
     items.push(per_cell("fields while writing", Part::Outputs, FIELDS));
+    items.push(per_cell("the same in SI units", Part::Outputs, PICTURE));
     if surface.is_some() {
         items.push(per_cell("fill and kind while writing", Part::Outputs, SURFACE_FIELDS));
     }
@@ -299,8 +303,8 @@ pub fn least_bytes_per_cell(scene: &Scene, layout: Layout) -> u64 {
     };
     let lag = if matches!(scene.numerics.yield_treatment, YieldChoice::LaggedClamped(_)) { LAG } else { 0 };
     match layout {
-        Layout::EveryCell => POPULATIONS + NEIGHBOURS + FIELDS + numbers + lag + of_surface,
-        Layout::Blocks => FIELDS + numbers + PLANNING + if free { SURFACE_FIELDS } else { 0 },
+        Layout::EveryCell => POPULATIONS + NEIGHBOURS + FIELDS + PICTURE + numbers + lag + of_surface,
+        Layout::Blocks => FIELDS + PICTURE + numbers + PLANNING + if free { SURFACE_FIELDS } else { 0 },
     }
 }
 
