@@ -38,6 +38,7 @@
 //! | F5 | ledger | `free_surface/ledger.rs` | `dam-break-mass`, `dam-break-momentum` |
 //! | F6 | drops, bubbles, single cells | `free_surface/marks.rs` | `isolated-cell`, `random-bubbles-and-drops` |
 
+pub mod bench;
 pub mod boundary;
 pub mod collision;
 pub mod free_surface;

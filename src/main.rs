@@ -5,8 +5,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
+use lahar::bench::{self, BenchError};
 use lahar::output::OutputError;
-use lahar::plan::{Plan, PlanError};
+use lahar::plan::{Layout, Plan, PlanError};
 use lahar::report::{self, ReportError, ReportOutcome};
 use lahar::run_scene::{self, Options, RunError};
 use lahar::scene::{self, Scene, SceneError, SceneProblem};
@@ -58,6 +59,24 @@ enum Command {
         /// As JSON; infinite numbers are null.
         #[arg(long)]
         json: bool,
+        /// Solver whose memory is counted.
+        #[arg(long, value_enum, default_value = "plain")]
+        backend: BackendName,
+    },
+    /// Measure this machine: bandwidth, speed of a fixed list of flows, shares of the ceiling.
+    Bench {
+        /// As JSON.
+        #[arg(long)]
+        json: bool,
+        /// About ten times smaller and shorter: half a minute.
+        #[arg(long)]
+        quick: bool,
+        /// Largest number of threads [default: all].
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+        threads: Option<u16>,
+        /// Only this group or case, or `bandwidth`; an unknown name lists them all.
+        #[arg(long, value_name = "NAME")]
+        only: Option<String>,
     },
     /// Make REPORT.md from the golden records.
     Report {
@@ -81,6 +100,10 @@ impl BackendName {
             Self::Plain => &Plain,
         }
     }
+
+    fn layout(self) -> Layout {
+        Layout::of(self.backend().name())
+    }
 }
 
 fn end_time(text: &str) -> Result<f64, String> {
@@ -101,7 +124,9 @@ enum Failure {
     Run(#[from] RunError),
     #[error(transparent)]
     Report(#[from] ReportError),
-    #[error("cannot write the plan as JSON: {0}")]
+    #[error(transparent)]
+    Bench(#[from] BenchError),
+    #[error("cannot write as JSON: {0}")]
     Json(#[from] serde_json::Error),
     #[error("REPORT.md is not up to date: {0}\n  way out: run `lahar report`")]
     Stale(String),
@@ -117,6 +142,9 @@ impl Failure {
             Self::Run(RunError::Start(_)) => BAD_INPUT,
             Self::Run(RunError::Stopped(_)) => STOPPED,
             Self::Run(RunError::Folder { .. } | RunError::Output(_)) => IO,
+            Self::Bench(BenchError::Stopped { .. }) => STOPPED,
+            Self::Bench(BenchError::Threads(_)) => IO,
+            Self::Bench(_) => BAD_INPUT,
             Self::Stale(_) => 1,
             Self::Report(_) | Self::Json(_) | Self::Print(_) => IO,
         }
@@ -136,7 +164,10 @@ fn main() -> ExitCode {
         Command::Run { scene, out, backend, threads, until, quiet } => {
             run(&scene, out, backend, threads, until, quiet)
         }
-        Command::Plan { scene, json } => plan(&scene, json),
+        Command::Plan { scene, json, backend } => plan(&scene, json, backend),
+        Command::Bench { json, quick, threads, only } => {
+            measure(json, &bench::Options { quick, threads: count(threads), only })
+        }
         Command::Report { check } => make_report(check),
         Command::Schema => print(&scene::schema()),
     };
@@ -160,7 +191,7 @@ fn run(
     quiet: bool,
 ) -> Result<(), Failure> {
     let scene = scene::load(path)?;
-    let plan = Plan::new(&scene)?;
+    let plan = Plan::for_layout(&scene, backend.layout())?;
     let out = out.unwrap_or_else(|| default_folder(&scene));
     if !quiet {
         let n = &plan.numbers;
@@ -174,9 +205,7 @@ fn run(
             eprintln!("warning: {warning}");
         }
     }
-    let threads = threads
-        .map_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get), usize::from);
-    let options = Options { out, backend: backend.backend(), threads, until_s, quiet };
+    let options = Options { out, backend: backend.backend(), threads: count(threads), until_s, quiet };
     let finished = run_scene::run(&scene, &plan, &options)?;
     if !quiet {
         let why = match (finished.steady, finished.arrested) {
@@ -199,12 +228,27 @@ fn default_folder(scene: &Scene) -> PathBuf {
     PathBuf::from("out").join(name)
 }
 
-fn plan(path: &Path, json: bool) -> Result<(), Failure> {
-    let plan = Plan::new(&scene::load(path)?)?;
+fn plan(path: &Path, json: bool, backend: BackendName) -> Result<(), Failure> {
+    let plan = Plan::for_layout(&scene::load(path)?, backend.layout())?;
     if json {
         print(&format!("{}\n", serde_json::to_string_pretty(&plan.numbers)?))
     } else {
         print(&plan.to_string())
+    }
+}
+
+/// Worker threads: as given, or all there are.
+fn count(threads: Option<u16>) -> usize {
+    threads
+        .map_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get), usize::from)
+}
+
+fn measure(json: bool, options: &bench::Options) -> Result<(), Failure> {
+    let report = bench::run(options, &mut |line| eprintln!("{line}"))?;
+    if json {
+        print(&format!("{}\n", serde_json::to_string_pretty(&report)?))
+    } else {
+        print(&report.to_string())
     }
 }
 

@@ -5,7 +5,8 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use lahar::plan::{Plan, PlanProblem};
+use lahar::plan::memory::predict;
+use lahar::plan::{Layout, Plan, PlanProblem};
 use lahar::scene::{self, SceneProblem};
 
 fn bad_scenes() -> Vec<PathBuf> {
@@ -77,12 +78,63 @@ fn command_exits_with_2_and_the_same_message() {
 fn refuses_what_does_not_fit_into_memory() {
     let text = include_str!("../scenes/verify/taylor_green_3d.json");
     let scene = scene::from_json(text, "taylor_green_3d.json").expect("a good scene");
-    // 32³ cells of at most 414 bytes are 13.6 MB.
-    assert!(Plan::with_memory(&scene, Some(14_000_000)).is_ok());
-    let error = Plan::with_memory(&scene, Some(13_000_000)).expect_err("too little memory");
+    // 32³ cells of 496 bytes are 16.3 MB.
+    assert!(Plan::with_memory(&scene, Some(16_400_000)).is_ok());
+    let error = Plan::with_memory(&scene, Some(16_000_000)).expect_err("too little memory");
     assert!(matches!(*error.problem, PlanProblem::OutOfMemory { cells: 32_768, .. }), "{error}");
     assert_eq!(error.path, "domain");
     snapshot("out_of_memory", &error);
+}
+
+/// The limit is the prediction of the set-up with all its walls, to the byte.
+#[test]
+fn refuses_one_byte_too_little_for_walls_and_surfaces() {
+    for name in ["verify/square_duct_newtonian", "verify/pipe_bingham", "show/slump_cone"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.json"));
+        let scene = scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        for layout in [Layout::EveryCell, Layout::Blocks] {
+            let plan = |bytes| Plan::with_layout(&scene, layout, Some(bytes));
+            let total = predict(&plan(u64::MAX).expect("a plan").setup, layout).total;
+            assert!(plan(total).is_ok(), "{name} {layout:?}");
+            let error = plan(total - 1).expect_err("too little memory");
+            assert!(matches!(*error.problem, PlanProblem::OutOfMemory { .. }), "{name}: {error}");
+        }
+    }
+}
+
+/// 1500³ cells need 1.7 terabytes: refused by both commands before anything is made.
+#[test]
+fn commands_refuse_what_does_not_fit() {
+    let limit = 3_375_000_000_u64 * 496;
+    if lahar::plan::available_memory().is_none_or(|bytes| bytes > limit) {
+        // The system does not say what it has, or has it.
+        return;
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("too_large");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let path = folder.join("too_large.json");
+    let text = include_str!("../scenes/verify/taylor_green_3d.json");
+    let scene = scene::from_json(text, "taylor_green_3d.json").expect("a good scene");
+    let mut json: serde_json::Value = serde_json::from_str(text).expect("JSON");
+    json["domain"]["spacing_m"] = (scene.domain.size_m[0] / 1500.0).into();
+    json.as_object_mut().expect("an object").remove("$schema");
+    std::fs::write(&path, json.to_string()).expect("a written scene");
+    let out = folder.join("out");
+    for arguments in [vec!["plan"], vec!["run", "--out", out.to_str().expect("a path")]] {
+        let output = Command::new(env!("CARGO_BIN_EXE_lahar"))
+            .args(&arguments)
+            .arg(&path)
+            .output()
+            .expect("it starts");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        for part in ["3375000000 cells need 1559.", " GiB\n  allowed: at most the ", "`domain.spacing_m` of "]
+        {
+            assert!(message.contains(part), "`{part}` in {message}");
+        }
+        assert!(!out.exists());
+    }
 }
 
 #[test]

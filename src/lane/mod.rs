@@ -11,6 +11,7 @@ mod dual;
 mod pack;
 pub mod powers;
 pub mod unroll;
+pub mod streaming;
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -16,6 +16,17 @@ static COUNTER: AtomicU64 = AtomicU64::new(0);
 /// # Errors
 /// [`OutputError::Io`] naming the path; the temporary file is removed.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    write_with(path, |file| file.write_all(bytes))
+}
+
+/// The same for what is too large to be held in one piece: `content` sends it bit by bit.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_with(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), OutputError> {
     let io = |doing| {
         let path = path.to_path_buf();
         move |source| OutputError::Io { path, doing, source }
@@ -24,7 +35,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
         fs::create_dir_all(folder).map_err(io("create the folder of"))?;
     }
     let temporary = temporary_name(path);
-    let outcome = write_and_rename(&temporary, path, bytes);
+    let outcome = write_and_rename(&temporary, path, content);
     if outcome.is_err() {
         // The first error is the one worth reporting; a leftover file is only untidy.
         let _ = fs::remove_file(&temporary);
@@ -38,9 +49,14 @@ fn temporary_name(path: &Path) -> PathBuf {
     path.with_file_name(format!(".{name}.{}-{count}.part", std::process::id()))
 }
 
-fn write_and_rename(temporary: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = File::create(temporary)?;
-    file.write_all(bytes)?;
+fn write_and_rename(
+    temporary: &Path,
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut buffered = BufWriter::new(File::create(temporary)?);
+    content(&mut buffered)?;
+    let file = buffered.into_inner().map_err(io::IntoInnerError::into_error)?;
     file.sync_all()?;
     drop(file);
     fs::rename(temporary, path)
@@ -68,6 +84,13 @@ mod tests {
         fs::create_dir_all(path.join("x")).unwrap();
         let error = write(&path, b"data").unwrap_err();
         assert!(error.to_string().contains("is_a_folder"), "{error}");
+        // Nor does content that fails half-way.
+        let half = |file: &mut dyn Write| {
+            file.write_all(&[0; 100_000])?;
+            Err(io::Error::other("enough"))
+        };
+        let error = write_with(&folder.join("half"), half).unwrap_err();
+        assert!(error.to_string().contains("enough"), "{error}");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
         fs::remove_dir_all(&folder).unwrap();
     }

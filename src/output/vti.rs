@@ -1,7 +1,8 @@
 //! Fields as VTK ImageData (`.vti`): cell data, appended raw little-endian.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use super::{OutputError, atomic, xml_escape};
 
@@ -49,15 +50,22 @@ impl Values<'_> {
         }
     }
 
-    fn append(&self, out: &mut Vec<u8>) {
+    /// Bytes in the file.
+    fn bytes(&self) -> u64 {
+        let size = if matches!(self, Self::Mask(_)) { 1 } else { 8 };
+        (self.len() * self.components().len() * size) as u64
+    }
+
+    fn send(&self, out: &mut dyn Write) -> io::Result<()> {
         match self {
-            Self::Scalar(v) => v.iter().for_each(|x| out.extend(x.to_le_bytes())),
-            Self::Vector(v) => v.iter().flatten().for_each(|x| out.extend(x.to_le_bytes())),
-            Self::Tensor(v) => v.iter().for_each(|t| {
+            Self::Scalar(v) => v.iter().try_for_each(|x| out.write_all(&x.to_le_bytes())),
+            Self::Vector(v) => v.iter().flatten().try_for_each(|x| out.write_all(&x.to_le_bytes())),
+            Self::Tensor(v) => v.iter().try_for_each(|t| {
                 // VTK orders symmetric tensors xx yy zz xy yz xz.
-                [t[0], t[1], t[2], t[3], t[5], t[4]].iter().for_each(|x| out.extend(x.to_le_bytes()));
+                let ordered = [t[0], t[1], t[2], t[3], t[5], t[4]];
+                ordered.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))
             }),
-            Self::Mask(v) => out.extend_from_slice(v),
+            Self::Mask(v) => out.write_all(v),
         }
     }
 }
@@ -111,26 +119,38 @@ impl<'a> Image<'a> {
     /// # Errors
     /// [`OutputError::Length`] when an array does not have one entry per cell.
     pub fn to_bytes(&self) -> Result<Vec<u8>, OutputError> {
-        let cells = self.extents.iter().product();
-        for Array { name, values } in &self.arrays {
-            if values.len() != cells {
-                return Err(OutputError::Length { what: name.clone(), found: values.len(), expected: cells });
-            }
-        }
-        let mut data = Vec::new();
-        let mut declarations = String::new();
-        for Array { name, values } in &self.arrays {
-            declare(&mut declarations, name, values, data.len());
-            let header = data.len();
-            data.extend([0; 8]);
-            values.append(&mut data);
-            let length = (data.len() - header - 8) as u64;
-            data[header..header + 8].copy_from_slice(&length.to_le_bytes());
-        }
-        let mut out = self.head(&declarations).into_bytes();
-        out.extend(data);
-        out.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
+        self.check()?;
+        let mut out = Vec::new();
+        // A vector takes everything.
+        let failed = |source| OutputError::Io { path: PathBuf::new(), doing: "collect", source };
+        self.send(&mut out).map_err(failed)?;
         Ok(out)
+    }
+
+    fn check(&self) -> Result<(), OutputError> {
+        let expected = self.extents.iter().product();
+        match self.arrays.iter().find(|array| array.values.len() != expected) {
+            Some(Array { name, values }) => {
+                Err(OutputError::Length { what: name.clone(), found: values.len(), expected })
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Sends the file array by array, so that no copy of it is held.
+    fn send(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut declarations = String::new();
+        let mut offset = 0;
+        for Array { name, values } in &self.arrays {
+            declare(&mut declarations, name, values, offset);
+            offset += 8 + values.bytes();
+        }
+        out.write_all(self.head(&declarations).as_bytes())?;
+        for Array { values, .. } in &self.arrays {
+            out.write_all(&values.bytes().to_le_bytes())?;
+            values.send(out)?;
+        }
+        out.write_all(b"\n</AppendedData>\n</VTKFile>\n")
     }
 
     fn head(&self, declarations: &str) -> String {
@@ -157,11 +177,12 @@ impl<'a> Image<'a> {
     /// # Errors
     /// As [`Self::to_bytes`], and I/O.
     pub fn write(&self, path: &Path) -> Result<(), OutputError> {
-        atomic::write(path, &self.to_bytes()?)
+        self.check()?;
+        atomic::write_with(path, |file| self.send(file))
     }
 }
 
-fn declare(out: &mut String, name: &str, values: &Values, offset: usize) {
+fn declare(out: &mut String, name: &str, values: &Values, offset: u64) {
     let components = values.components();
     let name = xml_escape(name);
     let _ = write!(

@@ -2,7 +2,7 @@
 
 use super::cells::{Cells, holds_a_cell};
 use super::error::PlanProblem;
-use super::memory::most_bytes_per_cell;
+use super::memory::{Layout, least_bytes_per_cell, predict};
 use super::numbers::Numbers;
 use crate::rheology::Law;
 use crate::scene::Scene;
@@ -19,22 +19,39 @@ const TAU_MAX_ONE_RATE: f64 = 3.0;
 /// Integers up to here are exact in f64.
 const STEPS_MAX: f64 = 9e15;
 
-/// Predicted bytes against the available ones, before anything is allocated.
-pub(super) fn memory(scene: &Scene, available: Option<u64>) -> Result<(), PlanProblem> {
+/// What is certain of the bytes, against the available ones, before anything is allocated.
+pub(super) fn least_memory(scene: &Scene, layout: Layout, available: Option<u64>) -> Result<(), PlanProblem> {
     let cells = super::cells::extents(&scene.domain).iter().map(|&n| n as u128).product::<u128>();
-    let needed = cells * u128::from(most_bytes_per_cell(scene));
-    match available {
-        Some(bytes) if needed > u128::from(bytes) => Err(PlanProblem::OutOfMemory {
-            cells: u64::try_from(cells).unwrap_or(u64::MAX),
-            needed_gib: gib(needed as f64),
-            available_gib: gib(bytes as f64),
-        }),
-        _ => Ok(()),
-    }
+    fits(scene, cells, cells * u128::from(least_bytes_per_cell(scene, layout)), available)
 }
 
-fn gib(bytes: f64) -> f64 {
-    bytes / (1024.0 * 1024.0 * 1024.0)
+/// All bytes of the run, against the available ones, before the run allocates any.
+pub(super) fn memory(
+    scene: &Scene,
+    setup: &Setup,
+    layout: Layout,
+    available: Option<u64>,
+) -> Result<(), PlanProblem> {
+    let total = predict(setup, layout).total;
+    fits(scene, setup.cells() as u128, u128::from(total), available)
+}
+
+fn fits(scene: &Scene, cells: u128, needed: u128, available: Option<u64>) -> Result<(), PlanProblem> {
+    let Some(available) = available.filter(|&bytes| needed > u128::from(bytes)) else { return Ok(()) };
+    let limit = |x: u128| u64::try_from(x).unwrap_or(u64::MAX);
+    // Only axes of several cells get fewer of them.
+    let axes = super::cells::extents(&scene.domain).iter().filter(|&&n| n > 1).count().max(1);
+    let excess = needed as f64 / available.max(1) as f64;
+    let spacing = scene.domain.spacing_m;
+    // Half a unit in the last printed digit above, so that what is printed is not too little.
+    let spacing_needed = spacing * libm::pow(excess, 1.0 / axes as f64) * 1.0005;
+    Err(PlanProblem::OutOfMemory {
+        cells: limit(cells),
+        needed: limit(needed),
+        available,
+        spacing,
+        spacing_needed,
+    })
 }
 
 /// Every solid and layer must hold a cell centre.

@@ -1,5 +1,6 @@
 //! What can be wrong with a scene once it is put into numbers.
 
+use super::memory::human;
 use crate::scene::Located;
 
 /// A problem found while planning a scene.
@@ -43,9 +44,20 @@ pub enum PlanProblem {
     NothingRemoved { spacing: f64 },
     /// More memory than there is.
     #[error(
-        "{cells} cells need {needed_gib:.2} GiB\n  allowed: at most the {available_gib:.2} GiB that are available\n  way out: a coarser `domain.spacing_m`, or one cell along periodic axes on which nothing changes"
+        "{cells} cells need {}\n  allowed: at most the {} that are available\n  way out: `domain.spacing_m` of {spacing_needed:.3e} m or more instead of {spacing} m, or one cell along periodic axes on which nothing changes", human(*needed), human(*available)
     )]
-    OutOfMemory { cells: u64, needed_gib: f64, available_gib: f64 },
+    OutOfMemory {
+        /// Cells of the box.
+        cells: u64,
+        /// Bytes predicted.
+        needed: u64,
+        /// Bytes that can be taken.
+        available: u64,
+        /// Spacing of the scene, m.
+        spacing: f64,
+        /// Spacing at which the same box would fit, m.
+        spacing_needed: f64,
+    },
     /// Too fast.
     #[error("found Mach number {mach:.3}: {speed:.4e} m/s at a time step of {dt:.3e} s\n  allowed: at most {limit}; the equilibrium is of second order in Ma [L3]\n  way out: a time step of at most {dt_max:.3e} s{}", or_leave(*.given))]
     MachTooHigh { mach: f64, speed: f64, dt: f64, limit: f64, dt_max: f64, given: bool },

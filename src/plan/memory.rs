@@ -1,17 +1,85 @@
-//! Bytes per cell, and what this machine has.
+//! Bytes a run will hold, worked out before any of them is taken, and what this machine has.
 
 use serde::Serialize;
 
-use crate::scene::Scene;
-use crate::solver::setup::{Setup, SurfaceForce, YieldTreatment};
+use crate::boundary::links::BoundaryCell;
+use crate::scene::{Scene, SurfaceGravity, YieldChoice};
+use crate::solver::setup::{Face, Setup, SurfaceForce, WallRule, YieldTreatment};
 
-/// Bytes per cell of one feature.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+/// How a backend lays cells out in memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Layout {
+    /// Every cell of the box has all arrays: the plain backend.
+    #[default]
+    EveryCell,
+    /// Only blocks that hold fluid, or touch it, have arrays: the fast backend.
+    Blocks,
+}
+
+impl Layout {
+    /// Of a backend, by its name. Backends from elsewhere are taken to hold every cell.
+    #[must_use]
+    pub fn of(backend: &str) -> Self {
+        if backend == "fast" { Self::Blocks } else { Self::EveryCell }
+    }
+}
+
+/// What an item is part of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Part {
+    /// Populations and what a collision remembers.
+    Populations,
+    /// What cells are for streaming, and what walls, mirror planes and solids need.
+    Walls,
+    /// The free surface.
+    Surface,
+    /// Fields while they are written.
+    Outputs,
+}
+
+/// Bytes of one feature.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Item {
     /// What it is.
     pub what: &'static str,
-    /// Bytes per cell of the box.
-    pub bytes_per_cell: u64,
+    /// What it is part of.
+    pub part: Part,
+    /// Bytes.
+    pub bytes: u64,
+    /// The same over the cells of the box.
+    pub bytes_per_cell: f64,
+}
+
+/// Bytes of a run, by part.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Prediction {
+    /// Populations and what a collision remembers.
+    pub populations: u64,
+    /// What cells are for streaming; walls, mirror planes and solids.
+    pub walls: u64,
+    /// The free surface.
+    pub surface: u64,
+    /// Fields while they are written.
+    pub outputs: u64,
+    /// All of them: the most that is held at one time.
+    pub total: u64,
+}
+
+impl Prediction {
+    fn of(items: &[Item]) -> Self {
+        let sum = |part| items.iter().filter(|item| item.part == part).map(|item| item.bytes).sum::<u64>();
+        let [populations, walls, surface, outputs] =
+            [Part::Populations, Part::Walls, Part::Surface, Part::Outputs].map(sum);
+        Self { populations, walls, surface, outputs, total: populations + walls + surface + outputs }
+    }
+
+    /// Bytes of the run itself, without outputs: what [`crate::solver::run::Run::allocated_bytes`] says.
+    #[must_use]
+    pub const fn run(&self) -> u64 {
+        self.total - self.outputs
+    }
 }
 
 /// Two copies of 19 populations in f64.
@@ -20,46 +88,234 @@ pub const POPULATIONS: u64 = 2 * 19 * 8;
 const NEIGHBOURS: u64 = 4;
 /// Density, velocity, stress, shear rate and relaxation rate while fields are written.
 pub const FIELDS: u64 = (1 + 3 + 6 + 1 + 1) * 8;
+/// Upstream offsets of one coordinate of an axis.
+const AXIS: u64 = 3 * 8;
+/// ω⁺ of the previous step.
+const LAG: u64 = 8;
 
 /// Kind, touched kinds, mass, fill now and at time 0, and velocity.
 const SURFACE: u64 = 1 + 1 + 8 + 8 + 8 + 24;
 /// Smoothed acceleration and the velocity it is made from.
 const INERTIA: u64 = 24 + 24;
+/// Fill and kind while fields are written.
+const SURFACE_FIELDS: u64 = 8 + 1;
+/// Pressure, velocity, stress and shear rate in SI units, and four marks, while a picture of the box is
+/// written.
+const PICTURE: u64 = (1 + 3 + 6 + 1) * 8 + 4;
+/// Scratch of the plan itself: shapes, distances between walls, columns of fluid.
+const PLANNING: u64 = 16;
+
+/// Bytes a run holds at most, on the plain backend.
+///
+/// # Arguments
+/// `setup`: must have passed [`crate::solver::check::check`].
+#[must_use]
+pub fn predicted_bytes(setup: &Setup) -> Prediction {
+    predict(setup, Layout::EveryCell)
+}
+
+/// Bytes a run holds at most, on a backend of this layout.
+#[must_use]
+pub fn predict(setup: &Setup, layout: Layout) -> Prediction {
+    Prediction::of(&items(setup, layout))
+}
 
 /// What each feature of a set-up costs.
 #[must_use]
-pub fn items(setup: &Setup) -> Vec<Item> {
-    let item = |what, bytes_per_cell| Item { what, bytes_per_cell };
-    let mut items = vec![
-        item("populations, two copies", POPULATIONS),
-        item("neighbour table", NEIGHBOURS),
-        item("fields while writing", FIELDS),
-    ];
+pub fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
+    let cells = setup.cells() as u64;
+    let item = |what, part, bytes: u64| Item {
+        what,
+        part,
+        bytes,
+        bytes_per_cell: bytes as f64 / cells.max(1) as f64,
+    };
+    let per_cell = |what, part, bytes: u64| item(what, part, bytes * cells);
+    let surface = setup.free_surface.as_ref();
+    let mut items = match layout {
+        Layout::EveryCell => every_cell(setup, &item),
+        Layout::Blocks => {
+            vec![item("blocks that hold fluid or touch it", Part::Populations, fast_bytes(setup))]
+        }
+    };
     if !setup.solids.is_empty() {
-        items.push(item("solid numbers", 1));
+        items.push(per_cell("solid numbers", Part::Walls, 1));
     }
     if !setup.fluid_of_cell.is_empty() {
-        items.push(item("fluid numbers", 1));
+        items.push(per_cell("fluid numbers", Part::Walls, 1));
+    }
+    items.push(per_cell("fields while writing", Part::Outputs, FIELDS));
+    items.push(per_cell("the same in SI units", Part::Outputs, PICTURE));
+    if surface.is_some() {
+        items.push(per_cell("fill and kind while writing", Part::Outputs, SURFACE_FIELDS));
+    }
+    items
+}
+
+/// The arrays of the plain backend.
+fn every_cell(setup: &Setup, item: &dyn Fn(&'static str, Part, u64) -> Item) -> Vec<Item> {
+    let cells = setup.cells() as u64;
+    let axes = AXIS * setup.extents.iter().sum::<usize>() as u64;
+    let mut items = vec![
+        item("populations, two copies", Part::Populations, POPULATIONS * cells),
+        item("neighbour table", Part::Walls, NEIGHBOURS * cells + axes),
+    ];
+    let boundary = boundary_cells(setup);
+    if boundary > 0 {
+        let bytes = boundary * size_of::<BoundaryCell>() as u64;
+        items.push(item("records of boundary cells", Part::Walls, bytes));
+        if setup.wall_rule == WallRule::ViscosityIndependent {
+            items.push(item("wall corrections", Part::Walls, boundary * 19 * 8));
+        }
     }
     if matches!(setup.yielding, YieldTreatment::LaggedClamped { .. }) {
-        items.push(item("relaxation time of the previous step", 8));
+        items.push(item("relaxation time of the previous step", Part::Populations, LAG * cells));
     }
     if let Some(surface) = &setup.free_surface {
-        items.push(item("surface kind, mass, fill, velocity", SURFACE));
-        items.push(item("fill and kind while writing", 9));
+        items.push(item("surface kind, mass, fill, velocity", Part::Surface, SURFACE * cells));
         if surface.force == SurfaceForce::ByFillAndInertia {
-            items.push(item("acceleration in surface cells", INERTIA));
+            items.push(item("acceleration in surface cells", Part::Surface, INERTIA * cells));
         }
     }
     items
 }
 
-/// Upper bound of the bytes per cell, known before anything is allocated: all features and the
-/// scratch arrays of `plan`.
+/// Cells that have a link through a wall, a mirror plane or an open face, or into a solid.
 #[must_use]
-pub fn most_bytes_per_cell(scene: &Scene) -> u64 {
-    let surface = if scene.fluid.initial.is_some() { SURFACE + INERTIA + 9 } else { 0 };
-    POPULATIONS + NEIGHBOURS + FIELDS + 1 + 1 + 8 + 4 + surface
+pub fn boundary_cells(setup: &Setup) -> u64 {
+    let inner: usize = (0..3)
+        .map(|a| {
+            let faces = setup.faces[a].iter().filter(|face| **face != Face::Periodic).count();
+            setup.extents[a].saturating_sub(faces)
+        })
+        .product();
+    if setup.solids.is_empty() {
+        return (setup.cells() - inner) as u64;
+    }
+    let fluid = (0..setup.cells()).filter(|&cell| !setup.is_solid(cell));
+    fluid.filter(|&cell| touches_boundary(setup, cell)).count() as u64
+}
+
+fn touches_boundary(setup: &Setup, cell: usize) -> bool {
+    let at = setup.coordinates(cell);
+    crate::lattice::C[1..].iter().any(|c| match neighbour(setup, at, *c) {
+        None => true,
+        Some(cell) => setup.is_solid(setup.index(cell)),
+    })
+}
+
+/// The cell at an offset of at most one cell along each axis, through periodic faces; `None` beyond others.
+fn neighbour(setup: &Setup, at: [usize; 3], offset: [i32; 3]) -> Option<[usize; 3]> {
+    let mut cell = at;
+    for axis in 0..3 {
+        let n = setup.extents[axis];
+        let side = usize::from(offset[axis] > 0);
+        cell[axis] = match offset[axis] {
+            0 => continue,
+            1 if at[axis] + 1 < n => at[axis] + 1,
+            -1 if at[axis] > 0 => at[axis] - 1,
+            _ if setup.faces[axis][side] != Face::Periodic => return None,
+            1 => 0,
+            _ => n - 1,
+        };
+    }
+    Some(cell)
+}
+
+/// Cells of a block.
+const BLOCK: usize = 512;
+/// Populations of a cell in a block, with the padding between the 19 arrays of a block.
+const BLOCK_POPULATIONS: u64 = 2 * 19 * 8 * 520;
+/// What a cell that walls or the surface touch needs besides.
+const BLOCK_EXTRAS: u64 = 64;
+
+/// Bytes of the fast backend: two copies of the populations in blocks of 512 cells that hold fluid or
+/// touch it at time 0, and 64 bytes per cell for the surface and per boundary cell for walls.
+#[must_use]
+pub fn fast_bytes(setup: &Setup) -> u64 {
+    let blocks = blocks(setup);
+    let surface = if setup.free_surface.is_some() { blocks * BLOCK as u64 * BLOCK_EXTRAS } else { 0 };
+    blocks * BLOCK_POPULATIONS + surface + boundary_cells(setup) * BLOCK_EXTRAS
+}
+
+/// Number of blocks that hold a fluid cell or a neighbour of one, at time 0.
+fn blocks(setup: &Setup) -> u64 {
+    let edges = block_edges(setup.extents);
+    let counts: [usize; 3] = std::array::from_fn(|a| setup.extents[a].div_ceil(edges[a]));
+    let everywhere = setup.solids.is_empty() && setup.free_surface.is_none();
+    if everywhere {
+        return counts.iter().product::<usize>() as u64;
+    }
+    let mut held = vec![false; counts.iter().product()];
+    let surface = setup.free_surface.as_ref();
+    for cell in 0..setup.cells() {
+        let gas = surface.is_some_and(|surface| surface.fill.get(cell).is_none_or(|&fill| fill <= 0.0));
+        if gas || setup.is_solid(cell) {
+            continue;
+        }
+        let at = setup.coordinates(cell);
+        // Neighbours of a cell inside a block lie in the same block.
+        let reach = |a: usize| {
+            let inside = at[a] % edges[a];
+            let low = if inside == 0 { -1 } else { 0 };
+            let high = i32::from(inside + 1 == edges[a] || at[a] + 1 == setup.extents[a]);
+            low..=high
+        };
+        for dz in reach(2) {
+            for dy in reach(1) {
+                for dx in reach(0) {
+                    if let Some(near) = neighbour(setup, at, [dx, dy, dz]) {
+                        let block: [usize; 3] = std::array::from_fn(|a| near[a] / edges[a]);
+                        held[block[0] + counts[0] * (block[1] + counts[1] * block[2])] = true;
+                    }
+                }
+            }
+        }
+    }
+    held.iter().filter(|&&held| held).count() as u64
+}
+
+/// 8 × 8 × 8 cells; along a shorter axis the block is as short, and longer along the others.
+fn block_edges(extents: [usize; 3]) -> [usize; 3] {
+    let mut edges = [1; 3];
+    while edges.iter().product::<usize>() < BLOCK {
+        let open = (0..3).filter(|&a| edges[a] < extents[a]);
+        let Some(axis) = open.min_by_key(|&a| edges[a]) else { break };
+        edges[axis] *= 2;
+    }
+    edges
+}
+
+/// Bytes per cell of the box that are certain before anything is allocated: the features the scene asks
+/// for without walls, or with blocks what the plan itself needs.
+#[must_use]
+pub fn least_bytes_per_cell(scene: &Scene, layout: Layout) -> u64 {
+    let numbers = u64::from(!scene.solids.is_empty()) + u64::from(!scene.layers.is_empty());
+    let free = scene.fluid.initial.is_some();
+    let inertia = scene
+        .numerics
+        .free_surface
+        .is_some_and(|rules| matches!(rules.gravity, SurfaceGravity::ByFillAndInertia));
+    let of_surface = match (free, inertia) {
+        (false, _) => 0,
+        (true, false) => SURFACE + SURFACE_FIELDS,
+        (true, true) => SURFACE + SURFACE_FIELDS + INERTIA,
+    };
+    let lag = if matches!(scene.numerics.yield_treatment, YieldChoice::LaggedClamped(_)) { LAG } else { 0 };
+    match layout {
+        Layout::EveryCell => POPULATIONS + NEIGHBOURS + FIELDS + PICTURE + numbers + lag + of_surface,
+        Layout::Blocks => FIELDS + PICTURE + numbers + PLANNING + if free { SURFACE_FIELDS } else { 0 },
+    }
+}
+
+/// A number of bytes for people.
+#[must_use]
+pub fn human(bytes: u64) -> String {
+    let units = [("GiB", 1_u64 << 30), ("MiB", 1 << 20), ("KiB", 1 << 10)];
+    match units.into_iter().find(|&(_, unit)| bytes >= unit) {
+        Some((name, unit)) => format!("{:.2} {name}", bytes as f64 / unit as f64),
+        None => format!("{bytes} bytes"),
+    }
 }
 
 /// Memory that can still be taken, bytes; `None` where the system does not say.
@@ -69,4 +325,42 @@ pub fn available() -> Option<u64> {
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     kib.checked_mul(1024)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rheology::Law;
+    use crate::solver::setup::FreeSurface;
+
+    const LAW: Law = Law::Newtonian { mu: 0.1 };
+
+    #[test]
+    fn exact_block_shapes() {
+        assert_eq!(block_edges([100, 100, 100]), [8, 8, 8]);
+        assert_eq!(block_edges([100, 100, 1]), [32, 16, 1]);
+        assert_eq!(block_edges([1, 1000, 1]), [1, 512, 1]);
+        assert_eq!(block_edges([3, 3, 1]), [4, 4, 1]);
+    }
+
+    #[test]
+    fn exact_number_of_blocks_below_a_surface() {
+        let mut setup = Setup::periodic([64, 64, 64], LAW);
+        assert_eq!(blocks(&setup), 512);
+        setup.faces[2] = [Face::NoSlip, Face::Open];
+        for (depth, layers) in [(7, 1), (8, 2), (9, 2), (64, 8)] {
+            let fill = (0..setup.cells())
+                .map(|cell| if setup.coordinates(cell)[2] < depth { 1.0 } else { 0.0 })
+                .collect();
+            setup.free_surface = Some(FreeSurface::new(fill));
+            assert_eq!(blocks(&setup), 64 * layers, "{depth}");
+        }
+    }
+
+    #[test]
+    fn exact_units_of_bytes() {
+        assert_eq!(human(1000), "1000 bytes");
+        assert_eq!(human(3 << 19), "1.50 MiB");
+        assert_eq!(human(5 << 30), "5.00 GiB");
+    }
 }

@@ -6,7 +6,7 @@ mod error;
 mod initial;
 pub mod law;
 mod lower;
-mod memory;
+pub mod memory;
 mod needs;
 mod numbers;
 mod print;
@@ -18,7 +18,7 @@ mod time_step;
 use std::fmt;
 
 pub use error::{PlanError, PlanProblem};
-pub use memory::available as available_memory;
+pub use memory::{Layout, available as available_memory};
 pub use needs::Need;
 pub use numbers::Numbers;
 pub use scale::{extreme_forces, total_force};
@@ -50,14 +50,30 @@ impl Plan {
         Self::with_memory(scene, memory::available())
     }
 
+    /// Plans a scene on this machine for a backend of this layout.
+    ///
+    /// # Errors
+    /// As [`Plan::new`].
+    pub fn for_layout(scene: &Scene, layout: Layout) -> Result<Self, PlanError> {
+        Self::with_layout(scene, layout, memory::available())
+    }
+
     /// Plans a scene as if `available` bytes of memory were free; `None` checks only that cells
     /// can be numbered.
     ///
     /// # Errors
     /// As [`Plan::new`].
     pub fn with_memory(scene: &Scene, available: Option<u64>) -> Result<Self, PlanError> {
+        Self::with_layout(scene, Layout::default(), available)
+    }
+
+    /// Both: for a layout, as if `available` bytes were free.
+    ///
+    /// # Errors
+    /// As [`Plan::new`].
+    pub fn with_layout(scene: &Scene, layout: Layout, available: Option<u64>) -> Result<Self, PlanError> {
         let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
-        checks::memory(scene, available).map_err(|problem| at("domain", problem))?;
+        checks::least_memory(scene, layout, available).map_err(|problem| at("domain", problem))?;
         checks::shapes(scene).map_err(|(path, problem)| at(&path, problem))?;
         surface_checks::recesses(scene).map_err(|(path, problem)| at(&path, problem))?;
         let cells = cells::fill(scene);
@@ -72,6 +88,7 @@ impl Plan {
         let fluid_cells = cells.fluid_cells;
         let pool = cells.pool;
         let setup = lower::lower(scene, &units, cells);
+        checks::memory(scene, &setup, layout, available).map_err(|problem| at("domain", problem))?;
         checks::finite(&setup).map_err(|problem| at("fluid", problem))?;
         let numbers = numbers::numbers(&numbers::Given {
             scene,
@@ -83,6 +100,7 @@ impl Plan {
             gap,
             fluid_cells,
             pool,
+            layout,
         });
         checks::numbers(&numbers, &setup).map_err(|problem| at(rule.path(), problem))?;
         Ok(Self { units, setup, steps, numbers })

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::law::{self, apparent_viscosity, has_plug, plastic_viscosity};
-use super::memory::{Item, items};
+use super::memory::{Item, Layout, items};
 use super::needs::{Need, passes};
 use super::scale::{Scales, extreme_forces, norm, total_force};
 use super::surface::Pool;
@@ -77,10 +77,10 @@ pub struct Numbers {
     pub plug_slip_m_per_s: f64,
     /// The same over the whole run, m.
     pub plug_slip_m: f64,
-    /// Bytes per cell of each feature.
+    /// Bytes of each feature.
     pub memory: Vec<Item>,
-    /// Bytes per cell, all features.
-    pub bytes_per_cell: u64,
+    /// Bytes per cell of the box, all features.
+    pub bytes_per_cell: f64,
     /// Bytes of the run.
     pub bytes: u64,
     /// Passes.
@@ -104,6 +104,7 @@ pub(super) struct Given<'a> {
     pub gap: f64,
     pub fluid_cells: u64,
     pub pool: Option<Pool>,
+    pub layout: Layout,
 }
 
 pub(super) fn numbers(given: &Given) -> Numbers {
@@ -118,8 +119,8 @@ pub(super) fn numbers(given: &Given) -> Numbers {
     let tau_min = if tau_min.is_finite() { tau_min } else { units.tau_of_viscosity(plastic) };
     let stable_speed = max_stable_speed(&setup.collision, tau_min).ok().map(|limit| limit.speed);
     let slip = plug_slip(given);
-    let memory = items(setup);
-    let bytes_per_cell = memory.iter().map(|item| item.bytes_per_cell).sum::<u64>();
+    let memory = items(setup, given.layout);
+    let bytes = memory.iter().map(|item| item.bytes).sum::<u64>();
     let cell_updates = given.fluid_cells as f64 * given.steps as f64;
     // K Uⁿ/Lⁿ, the viscous stress scale.
     let viscous = p.k * libm::pow(u / length, p.n);
@@ -153,8 +154,8 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         plug_slip_m_per_s: slip,
         plug_slip_m: slip * scene.stop.end_time_s,
         memory,
-        bytes_per_cell,
-        bytes: bytes_per_cell * cells,
+        bytes_per_cell: bytes as f64 / cells as f64,
+        bytes,
         passes: passes(scene, setup),
         cell_updates,
         estimated_seconds: cell_updates / UPDATES_PER_SECOND,

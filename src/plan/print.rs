@@ -62,12 +62,12 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     slip(f, n)?;
     writeln!(f, "\nMemory")?;
     for item in &n.memory {
-        row(f, item.what, format_args!("{} bytes per cell", item.bytes_per_cell))?;
+        row(f, item.what, format_args!("{} bytes per cell", short(item.bytes_per_cell)))?;
     }
     row(
         f,
         "total",
-        format_args!("{} bytes per cell, {} MiB", n.bytes_per_cell, short(n.bytes as f64 / 1048576.0)),
+        format_args!("{} bytes per cell, {} MiB", short(n.bytes_per_cell), short(n.bytes as f64 / 1048576.0)),
     )?;
     passes(f, n)?;
     writeln!(f, "\nCost")?;

@@ -112,6 +112,8 @@ impl Driver<'_> {
         while run.step() < self.schedule.end && !steady && !arrested {
             let due = self.schedule.next(run.step());
             self.advance(run, due, writer)?;
+            // The old fields go before the new ones come: never two sets at a time.
+            drop(std::mem::take(&mut fields));
             fields = run.fields();
             steady = self.schedule.steady.take_if_due(due) && self.is_steady(&fields);
             arrested = self.schedule.arrested.take_if_due(due) && self.is_arrested(run, &fields);

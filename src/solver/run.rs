@@ -59,6 +59,12 @@ pub trait Run {
 
     /// Bytes held by this run's arrays.
     fn allocated_bytes(&self) -> u64;
+
+    /// Seconds spent in each pass since the start; empty where a backend does not keep them. For people:
+    /// results never depend on them.
+    fn pass_seconds(&self) -> Vec<(&'static str, f64)> {
+        Vec::new()
+    }
 }
 
 /// Sums over all fluid cells.

@@ -62,27 +62,30 @@ pub struct Outcome {
     pub liquid_excess: f64,
 }
 
-/// Numbers per direction: one line more than the cells, so that the directions do not fall on the same sets
-/// of the cache and a row may be read one number early or late.
+/// Place of population `i` of a cell among the numbers of its block.
+///
+/// The 19 lines of a pack follow each other, then those of the next pack: a pass walks through memory from
+/// front to back, on one page after the other, instead of on 38 pages at once.
+#[inline(always)]
 #[must_use]
-pub fn stride<E: Element>(layout: &Layout) -> usize {
-    layout.block_cells() + E::PER_LINE
+pub const fn index<E: Element>(local: usize, i: usize) -> usize {
+    (local / E::PER_LINE * Q + i) * E::PER_LINE + local % E::PER_LINE
 }
 
 /// Numbers per block.
 #[must_use]
-pub fn block_len<E: Element>(layout: &Layout) -> usize {
-    Q * stride::<E>(layout)
+pub fn block_len(layout: &Layout) -> usize {
+    Q * layout.block_cells()
 }
 
-/// Where the rows begin that a row of cells is gathered from: entry of the neighbourhood and first number, by
+/// Where the rows begin that a row of cells is gathered from: entry of the neighbourhood and first cell, by
 /// direction, before the shift along the row.
 #[derive(Clone, Copy)]
 struct Rows([(usize, usize); Q]);
 
 impl Rows {
     #[inline(always)]
-    fn new(layout: &Layout, stride: usize, local: usize) -> Self {
+    fn new(layout: &Layout, local: usize) -> Self {
         let [_, j, k] = layout.coordinates(local);
         let [n, m, l] = layout.block;
         Self(directions(
@@ -90,7 +93,7 @@ impl Rows {
             |i| {
                 let (o1, j) = step_back(j, C[i][1], m);
                 let (o2, k) = step_back(k, C[i][2], l);
-                (1 + 3 * o1 + 9 * o2, i * stride + n * (j + m * k))
+                (1 + 3 * o1 + 9 * o2, n * (j + m * k))
             },
         ))
     }
@@ -108,37 +111,45 @@ fn step_back(at: usize, c: i32, size: usize) -> (usize, usize) {
     }
 }
 
-/// The populations that arrive in an ordinary pack whose first cell is number `x` of its row.
+/// The populations that arrive in part of an ordinary pack, the pack beginning at cell `x` of its row.
 #[inline(always)]
 fn gather<R: Registers>(
     around: &Around<R::Element>,
     rows: &Rows,
-    x: usize,
+    (x, part): (usize, usize),
     row: usize,
 ) -> [R::Pack; Q] {
+    let line = R::Element::PER_LINE;
     directions(
         #[inline(always)]
         |i| {
-            let (entry, base) = rows.0[i];
+            let (entry, first) = rows.0[i];
             let from = around.slices[entry];
+            let base = index::<R::Element>(first + x, i) + part;
             match C[i][0] {
                 1 => {
-                    let shifted = R::load(&from[base + x - 1..]);
-                    if x == 0 {
-                        R::with_first(shifted, around.slices[entry - 1][base + row - 1])
-                    } else {
+                    let shifted = R::load(&from[base - 1..]);
+                    if part > 0 {
                         shifted
+                    } else if x > 0 {
+                        R::with_first(shifted, from[index::<R::Element>(first + x - 1, i)])
+                    } else {
+                        let before = around.slices[entry - 1];
+                        R::with_first(shifted, before[index::<R::Element>(first + row - 1, i)])
                     }
                 }
                 -1 => {
-                    let shifted = R::load(&from[base + x + 1..]);
-                    if x + R::WIDTH == row {
-                        R::with_last(shifted, around.slices[entry + 1][base])
-                    } else {
+                    let shifted = R::load(&from[base + 1..]);
+                    if part + R::WIDTH < line {
                         shifted
+                    } else if x + line < row {
+                        R::with_last(shifted, from[index::<R::Element>(first + x + line, i)])
+                    } else {
+                        let behind = around.slices[entry + 1];
+                        R::with_last(shifted, behind[index::<R::Element>(first, i)])
                     }
                 }
-                _ => R::load(&from[base + x..]),
+                _ => R::load(&from[base..]),
             }
         },
     )
@@ -151,7 +162,6 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
     let block = &task.blocks[own.number];
     let layout = task.layout;
     let line = R::Element::PER_LINE;
-    let stride = stride::<R::Element>(layout);
     let around = Around::new(task, own.number);
     let row = layout.block[0];
     let straight = layout.is_straight() && !task.fresh;
@@ -162,7 +172,7 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
         let local = pack * line;
         let x = local & (row - 1);
         if x == 0 && straight {
-            rows = Rows::new(layout, stride, local);
+            rows = Rows::new(layout, local);
         }
         let class = Class::new(task, block, own.number, pack, line);
         if class.fluid == 0 {
@@ -174,7 +184,7 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
         }
         for part in (0..line).step_by(R::WIDTH) {
             let h = if ordinary {
-                gather::<R>(&around, &rows, x + part, row)
+                gather::<R>(&around, &rows, (x, part), row)
             } else {
                 directions(
                     #[inline(always)]
@@ -208,10 +218,16 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
                 stage.keep::<R>(&m, omega, part);
             }
             let post = task.physics.collide(&h, &m, omega);
-            if R::WIDTH == line && !task.past_cache {
-                let new = own.new.get_mut();
-                for i in 0..Q {
-                    R::store(post[i], &mut new[i * stride + local..]);
+            if R::WIDTH == line {
+                let new = &mut own.new.get_mut()[pack * Q * line..][..Q * line];
+                if task.past_cache {
+                    for i in 0..Q {
+                        R::store_past_cache(post[i], &mut new[i * line..]);
+                    }
+                } else {
+                    for i in 0..Q {
+                        R::store(post[i], &mut new[i * line..]);
+                    }
                 }
             } else {
                 for i in 0..Q {
@@ -222,10 +238,10 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
         if !ordinary {
             outcome.liquid_excess += stage.finish(block, own, &class, local);
         }
-        if R::WIDTH != line || task.past_cache {
+        if R::WIDTH != line {
             let new = own.new.get_mut();
             for i in 0..Q {
-                let to = &mut new[i * stride + local..][..line];
+                let to = &mut new[(pack * Q + i) * line..][..line];
                 if task.past_cache {
                     stores::line_past_cache(to, &stage.populations[i][..line]);
                 } else {

@@ -16,6 +16,11 @@ pub trait Registers: Copy + Send + Sync + 'static {
     fn load(from: &[Self::Element]) -> Self::Pack;
     /// Into the first numbers of a slice.
     fn store(pack: Self::Pack, to: &mut [Self::Element]);
+    /// As [`Self::store`], past the cache where a pack is a whole line that starts at a multiple of its size.
+    #[inline(always)]
+    fn store_past_cache(pack: Self::Pack, to: &mut [Self::Element]) {
+        Self::store(pack, to);
+    }
     /// From `f64`, whatever is stored.
     fn load_wide(from: &[f64]) -> Self::Pack;
     /// To `f64`.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::block::{Block, Place, Velocities};
 use super::element::{Aligned, Element};
 use super::instructions::{self, Chosen};
-use super::kernel::{Outcome, Own, Task, block_len, stride};
+use super::kernel::{Outcome, Own, Task, block_len, index};
 use super::layout::{Layout, NONE};
 use super::rim::{Rim, WallTask, correct};
 use super::stage::{Around, after, open_link, wall_link};
@@ -114,8 +114,8 @@ impl<P: Physics> FastRun<P> {
         self.density.push(vec![0.0; if walls { cells } else { 0 }]);
         let lagged = matches!(self.setup.yielding, YieldTreatment::LaggedClamped { .. });
         self.lag.push(vec![0.0; if lagged { cells } else { 0 }]);
-        self.old.push(Aligned::zeros(block_len::<f64>(&self.layout)));
-        self.new.push(Aligned::zeros(block_len::<f64>(&self.layout)));
+        self.old.push(Aligned::zeros(block_len(&self.layout)));
+        self.new.push(Aligned::zeros(block_len(&self.layout)));
         self.blocks.push(block);
         Some(number)
     }
@@ -131,7 +131,6 @@ impl<P: Physics> FastRun<P> {
     fn fill_in(&mut self) {
         let force = self.setup.force.at(0);
         let (setup, layout) = (&self.setup, &self.layout);
-        let stride = stride::<f64>(layout);
         let work = |((block, old), lag): ((&Block, &mut Aligned<f64>), &mut Vec<f64>)| {
             let mut count = 0;
             for local in 0..layout.block_cells() {
@@ -144,7 +143,7 @@ impl<P: Physics> FastRun<P> {
                 let cell = setup.index(at);
                 let f = initial::start(&point, &setup.law(cell), &force);
                 for (i, f) in f.iter().enumerate() {
-                    old.get_mut()[i * stride + local] = *f;
+                    old.get_mut()[index::<f64>(local, i)] = *f;
                 }
                 if let Some(omega) = lag.get_mut(local) {
                     *omega = starting_omega(setup, cell);
@@ -280,16 +279,15 @@ impl<P: Physics> FastRun<P> {
         }
         let block = &self.blocks[number];
         let around = Around::new(&task, number);
-        let stride = stride::<f64>(&self.layout);
         std::array::from_fn(|i| {
             let Some(link) = block.link(local, i, LINE) else {
                 let (entry, from) = self.layout.upstream(local, i);
-                return around.slices[entry][i * stride + from];
+                return around.slices[entry][index::<f64>(from, i)];
             };
             match link.from {
                 super::block::From::Cell { cell, direction } => {
                     let number = self.layout.block_at(cell.block as usize) as usize;
-                    self.old[number].get()[usize::from(direction) * stride + cell.local as usize]
+                    self.old[number].get()[index::<f64>(cell.local as usize, usize::from(direction))]
                 }
                 super::block::From::Wall { velocity, .. } => {
                     let u = &self.velocities.list[velocity as usize];

@@ -2,7 +2,7 @@
 
 use super::block::{Block, From, Link, numbers_around};
 use super::element::{Aligned, Element};
-use super::kernel::{Own, Task, stride};
+use super::kernel::{Own, Task, index};
 use super::layout::{Layout, NONE};
 use super::registers::Registers;
 use crate::lattice::moments::{Moments, density_excess};
@@ -94,13 +94,12 @@ impl<E: Element> Stage<E> {
         local: usize,
     ) {
         let line = E::PER_LINE;
-        let stride = stride::<E>(task.layout);
         let own_old = task.old[own.number].get();
         for (i, column) in self.populations.iter_mut().enumerate() {
             if task.fresh {
-                column[..line].copy_from_slice(&own_old[i * stride + local..][..line]);
+                column[..line].copy_from_slice(&own_old[index::<E>(local, i)..][..line]);
             } else {
-                gather_row(task.layout, around, i, stride, local, &mut column[..line]);
+                gather_row(task.layout, around, i, local, &mut column[..line]);
             }
         }
         if !task.fresh {
@@ -138,7 +137,7 @@ impl<E: Element> Stage<E> {
                 From::Cell { cell, direction } => {
                     let number = task.layout.block_at(cell.block as usize);
                     task.old[number as usize].get()
-                        [usize::from(direction) * stride::<E>(task.layout) + cell.local as usize]
+                        [index::<E>(cell.local as usize, usize::from(direction))]
                 }
                 From::Wall { velocity, .. } => {
                     if rho.0 != at {
@@ -229,42 +228,31 @@ impl<E: Element> Default for Stage<E> {
 
 /// One direction of a pack from the grid of blocks.
 #[inline]
-fn gather_row<E: Element>(
-    layout: &Layout,
-    around: &Around<E>,
-    i: usize,
-    stride: usize,
-    local: usize,
-    to: &mut [E],
-) {
+fn gather_row<E: Element>(layout: &Layout, around: &Around<E>, i: usize, local: usize, to: &mut [E]) {
     let (line, row) = (to.len(), layout.block[0]);
-    let shift = layout.velocity[i][0];
     let x = local & (row - 1);
-    // The row without the shift along it, then the one end that may lie in the next block.
+    // The row without the shift along it, then the one end that lies in the next pack or block.
     let (entry, first) = layout.upstream_row(local, i);
-    let base = i * stride + first;
-    let from = around.slices[entry];
-    match shift {
+    let at = |entry: usize, cell: usize| around.slices[entry][index::<E>(cell, i)];
+    let own = &around.slices[entry][index::<E>(first + x, i)..][..line];
+    match layout.velocity[i][0] {
         1 => {
-            let (head, tail) = to.split_at_mut(1);
-            head[0] = if x == 0 { around.slices[entry - 1][base + row - 1] } else { from[base + x - 1] };
-            tail.copy_from_slice(&from[base + x..][..line - 1]);
+            to[0] = if x == 0 { at(entry - 1, first + row - 1) } else { at(entry, first + x - 1) };
+            to[1..].copy_from_slice(&own[..line - 1]);
         }
         -1 => {
-            let (head, tail) = to.split_at_mut(line - 1);
-            head.copy_from_slice(&from[base + x + 1..][..line - 1]);
-            tail[0] = if x + line == row { around.slices[entry + 1][base] } else { from[base + x + line] };
+            to[..line - 1].copy_from_slice(&own[1..]);
+            to[line - 1] = if x + line == row { at(entry + 1, first) } else { at(entry, first + x + line) };
         }
-        _ => to.copy_from_slice(&from[base + x..][..line]),
+        _ => to.copy_from_slice(own),
     }
 }
 
 /// Populations of a cell after the last collision.
 #[inline]
 pub fn after<P, E: Element>(task: &Task<P, E>, number: usize, local: usize) -> [f64; Q] {
-    let stride = stride::<E>(task.layout);
     let own = task.old[number].get();
-    std::array::from_fn(|i| own[i * stride + local].to_f64())
+    std::array::from_fn(|i| own[index::<E>(local, i)].to_f64())
 }
 
 /// What a wall sends back along a link \[B1\] \[B3\].
@@ -278,8 +266,7 @@ pub fn wall_link<P: Physics, E: Element>(
     velocity: &[f64; 3],
 ) -> f64 {
     let out = opposite(usize::from(link.direction));
-    let stride = stride::<E>(task.layout);
-    let leaving = task.old[number].get()[out * stride + usize::from(link.local)].to_f64();
+    let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
     let correction = rim.get(usize::from(link.rim)).map_or(0.0, |kept| kept.correction[out]);
     task.physics.wall(leaving - correction, out, rho, velocity)
 }
@@ -293,8 +280,7 @@ pub fn open_link<P: Physics, E: Element>(
     link: &Link,
 ) -> f64 {
     let out = opposite(usize::from(link.direction));
-    let stride = stride::<E>(task.layout);
-    let leaving = task.old[number].get()[out * stride + usize::from(link.local)].to_f64();
+    let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
     let u = rim.get(usize::from(link.rim)).map_or([0.0; 3], |kept| kept.velocity);
     if crate::lattice::equilibrium::dot(out, &u) > 0.0 {
         task.physics.gas_link(leaving, out, &u, || leaving)

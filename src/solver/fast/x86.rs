@@ -34,7 +34,7 @@ macro_rules! register {
     ($(#[$doc:meta])* $name:ident, $lanes:ident, $width:literal, $reg:ty, $mask:ty,
      $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $splat:ident $load:ident $store:ident,
      $to_int:ident $to_real:ident $splat_int:ident $add_int:ident $and_int:ident $or_int:ident $xor_int:ident
-     $left:ident $right:ident,
+     $left:ident $right:ident $stream:ident,
      [$m:ident $a:ident $b:ident] $less:expr, $less_equal:expr, $select:expr, $and:expr, $not:expr, $any:expr) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
@@ -202,6 +202,16 @@ macro_rules! register {
                 unsafe { $store(to.as_mut_ptr(), pack.0) };
             }
             #[inline(always)]
+            fn store_past_cache(pack: $name, to: &mut [f64]) {
+                let to = &mut to[..$width];
+                if to.as_ptr().addr() % size_of::<$name>() == 0 {
+                    // SAFETY: as above, and the place is aligned to the register.
+                    unsafe { $stream(to.as_mut_ptr(), pack.0) };
+                } else {
+                    Self::store(pack, to);
+                }
+            }
+            #[inline(always)]
             fn load_wide(from: &[f64]) -> $name {
                 Self::load(from)
             }
@@ -230,7 +240,7 @@ register!(
     Two, Sse2, 2, __m128d, __m128d,
     _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_set1_pd _mm_loadu_pd _mm_storeu_pd,
     _mm_castpd_si128 _mm_castsi128_pd _mm_set1_epi64x _mm_add_epi64 _mm_and_si128 _mm_or_si128 _mm_xor_si128
-    _mm_slli_epi64 _mm_srli_epi64,
+    _mm_slli_epi64 _mm_srli_epi64 _mm_stream_pd,
     [m a b] _mm_cmplt_pd(a, b),
     _mm_cmple_pd(a, b),
     _mm_or_pd(_mm_and_pd(m, a), _mm_andnot_pd(m, b)),
@@ -245,7 +255,7 @@ register!(
     _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd _mm256_set1_pd _mm256_loadu_pd
     _mm256_storeu_pd,
     _mm256_castpd_si256 _mm256_castsi256_pd _mm256_set1_epi64x _mm256_add_epi64 _mm256_and_si256 _mm256_or_si256
-    _mm256_xor_si256 _mm256_slli_epi64 _mm256_srli_epi64,
+    _mm256_xor_si256 _mm256_slli_epi64 _mm256_srli_epi64 _mm256_stream_pd,
     [m a b] _mm256_cmp_pd::<_CMP_LT_OQ>(a, b),
     _mm256_cmp_pd::<_CMP_LE_OQ>(a, b),
     _mm256_blendv_pd(b, a, m),
@@ -260,7 +270,8 @@ register!(
     _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd _mm512_sqrt_pd _mm512_set1_pd _mm512_loadu_pd
     _mm512_storeu_pd,
     _mm512_castpd_si512 _mm512_castsi512_pd _mm512_set1_epi64 _mm512_add_epi64 _mm512_and_si512 _mm512_or_si512
-    _mm512_xor_si512 _mm512_slli_epi64 _mm512_srli_epi64,
+    _mm512_xor_si512 _mm512_slli_epi64 _mm512_srli_epi64
+    _mm512_stream_pd,
     [m a b] _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b),
     _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b),
     _mm512_mask_blend_pd(m, b, a),

@@ -1,0 +1,289 @@
+//! The fixed list of flows that are timed, in lattice units.
+
+use super::flows::{
+    Dam, bingham, channel, herschel_bulkley, newtonian, rigid, shear_rate, twin_bingham, twin_dam,
+    twin_herschel_bulkley, twin_rigid, vortices,
+};
+use crate::solver::setup::Setup;
+
+/// Full size, or about ten times fewer cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// As described.
+    Full,
+    /// About a tenth of the cells.
+    Quick,
+}
+
+impl Scale {
+    const fn pick(self, full: usize, quick: usize) -> usize {
+        match self {
+            Self::Full => full,
+            Self::Quick => quick,
+        }
+    }
+}
+
+/// One flow.
+#[derive(Clone, Copy)]
+pub struct Case {
+    /// `group/flow`.
+    pub name: &'static str,
+    /// What it shows.
+    pub shows: &'static str,
+    /// The set-up.
+    pub setup: fn(Scale) -> Setup,
+    /// A small relative with the same share of yielded fluid; `None` where everything flows.
+    pub twin: Option<fn() -> Setup>,
+}
+
+/// What two cases are compared by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// Updates per second.
+    Rate,
+    /// Seconds per update.
+    TimePerUpdate,
+    /// Seconds per step.
+    TimePerStep,
+    /// Bytes held.
+    Bytes,
+}
+
+/// A ratio of two cases of a group.
+#[derive(Clone, Copy)]
+pub struct Compare {
+    /// As printed.
+    pub name: &'static str,
+    /// By what.
+    pub quantity: Quantity,
+    /// Numerator.
+    pub of: &'static str,
+    /// Denominator.
+    pub to: &'static str,
+}
+
+/// Cases that are timed in turns, so that whatever else the machine does hits all of them.
+pub struct Group {
+    /// Short name.
+    pub name: &'static str,
+    /// What it is about.
+    pub about: &'static str,
+    /// The cases.
+    pub cases: &'static [Case],
+    /// Their ratios.
+    pub compare: &'static [Compare],
+    /// Timed on one thread too, or only on all of them.
+    pub single_thread: bool,
+}
+
+const fn bulk(scale: Scale) -> usize {
+    scale.pick(192, 88)
+}
+
+const fn small(scale: Scale) -> usize {
+    scale.pick(96, 44)
+}
+
+const fn case(name: &'static str, shows: &'static str, setup: fn(Scale) -> Setup) -> Case {
+    Case { name, shows, setup, twin: None }
+}
+
+const fn yielding(
+    name: &'static str,
+    shows: &'static str,
+    setup: fn(Scale) -> Setup,
+    twin: fn() -> Setup,
+) -> Case {
+    Case { name, shows, setup, twin: Some(twin) }
+}
+
+const fn ratio(name: &'static str, quantity: Quantity, of: &'static str, to: &'static str) -> Compare {
+    Compare { name, quantity, of, to }
+}
+
+/// All groups, in the order in which they run.
+pub const GROUPS: [Group; 6] = [
+    Group {
+        name: "bulk",
+        about: "vortices in a periodic cube of 192³",
+        cases: &[
+            case("bulk/newtonian", "one relaxation time", |s| vortices(bulk(s), newtonian())),
+            yielding(
+                "bulk/bingham",
+                "the shear-rate solve in closed form",
+                |s| vortices(bulk(s), bingham(shear_rate(bulk(s)))),
+                twin_bingham,
+            ),
+            yielding(
+                "bulk/herschel-bulkley",
+                "the shear-rate solve with powers, n = 0.33",
+                |s| vortices(bulk(s), herschel_bulkley(shear_rate(bulk(s)))),
+                twin_herschel_bulkley,
+            ),
+        ],
+        compare: &[
+            ratio("bingham / newtonian", Quantity::Rate, "bulk/bingham", "bulk/newtonian"),
+            ratio("herschel-bulkley / newtonian", Quantity::Rate, "bulk/herschel-bulkley", "bulk/newtonian"),
+        ],
+        single_thread: true,
+    },
+    Group {
+        name: "bulk-small",
+        about: "the same in 96³, for every backend",
+        cases: &[
+            case("bulk-small/newtonian", "one relaxation time", |s| vortices(small(s), newtonian())),
+            yielding(
+                "bulk-small/bingham",
+                "the shear-rate solve in closed form",
+                |s| vortices(small(s), bingham(shear_rate(small(s)))),
+                twin_bingham,
+            ),
+            yielding(
+                "bulk-small/herschel-bulkley",
+                "the shear-rate solve with powers, n = 0.33",
+                |s| vortices(small(s), herschel_bulkley(shear_rate(small(s)))),
+                twin_herschel_bulkley,
+            ),
+            yielding(
+                "bulk-small/unyielded",
+                "a Herschel-Bulkley material that never yields",
+                |s| rigid(small(s)),
+                twin_rigid,
+            ),
+        ],
+        compare: &[
+            ratio("bingham / newtonian", Quantity::Rate, "bulk-small/bingham", "bulk-small/newtonian"),
+            ratio(
+                "herschel-bulkley / newtonian",
+                Quantity::Rate,
+                "bulk-small/herschel-bulkley",
+                "bulk-small/newtonian",
+            ),
+            ratio(
+                "unyielded / yielded herschel-bulkley",
+                Quantity::Rate,
+                "bulk-small/unyielded",
+                "bulk-small/herschel-bulkley",
+            ),
+        ],
+        single_thread: true,
+    },
+    Group {
+        name: "walls",
+        about: "a channel of 128³ with viscosity-independent walls [B3]",
+        cases: &[
+            case("walls/channel", "two walls", |s| channel(s.pick(128, 60))),
+            case("walls/bulk", "the same number of cells without walls", |s| {
+                vortices(s.pick(128, 60), newtonian())
+            }),
+        ],
+        compare: &[ratio("walls / bulk", Quantity::Rate, "walls/channel", "walls/bulk")],
+        single_thread: true,
+    },
+    Group {
+        name: "dam-break",
+        about: "a thin layer of 10⁶ fluid cells with a free surface",
+        cases: &[
+            case("dam-break/newtonian", "a thin layer, 14 to 18 cells deep", |s| {
+                Dam::large(s).setup(newtonian())
+            }),
+            yielding(
+                "dam-break/herschel-bulkley",
+                "the same, of mud",
+                |s| Dam::large(s).setup(Dam::large(s).mud()),
+                twin_dam,
+            ),
+            case("dam-break/newtonian-roomy", "the same fluid in ten times the box", |s| {
+                Dam::large(s).roomy().setup(newtonian())
+            }),
+            yielding(
+                "dam-break/herschel-bulkley-roomy",
+                "the same mud in ten times the box",
+                |s| Dam::large(s).roomy().setup(Dam::large(s).mud()),
+                twin_dam,
+            ),
+            case("dam-break/newtonian-bulk", "as many fluid cells without a surface", |s| {
+                vortices(s.pick(100, 46), newtonian())
+            }),
+            yielding(
+                "dam-break/herschel-bulkley-bulk",
+                "as many mud cells without a surface",
+                |s| vortices(s.pick(100, 46), herschel_bulkley(shear_rate(s.pick(100, 46)))),
+                twin_herschel_bulkley,
+            ),
+        ],
+        compare: &[
+            ratio(
+                "free surface / bulk, newtonian",
+                Quantity::Rate,
+                "dam-break/newtonian",
+                "dam-break/newtonian-bulk",
+            ),
+            ratio(
+                "free surface / bulk, herschel-bulkley",
+                Quantity::Rate,
+                "dam-break/herschel-bulkley",
+                "dam-break/herschel-bulkley-bulk",
+            ),
+            ratio(
+                "box ×10 / box, newtonian",
+                Quantity::TimePerStep,
+                "dam-break/newtonian-roomy",
+                "dam-break/newtonian",
+            ),
+            ratio(
+                "box ×10 / box, herschel-bulkley",
+                Quantity::TimePerStep,
+                "dam-break/herschel-bulkley-roomy",
+                "dam-break/herschel-bulkley",
+            ),
+            ratio(
+                "box ×10 / box, newtonian",
+                Quantity::Bytes,
+                "dam-break/newtonian-roomy",
+                "dam-break/newtonian",
+            ),
+        ],
+        single_thread: true,
+    },
+    Group {
+        name: "dam-break-small",
+        about: "a tenth of that fluid, for every backend",
+        cases: &[
+            case("dam-break-small/newtonian", "a thin layer, 9 to 13 cells deep", |s| {
+                Dam::small(s).setup(newtonian())
+            }),
+            yielding(
+                "dam-break-small/herschel-bulkley",
+                "the same, of mud",
+                |s| Dam::small(s).setup(Dam::small(s).mud()),
+                twin_dam,
+            ),
+        ],
+        compare: &[ratio(
+            "herschel-bulkley / newtonian, free surface",
+            Quantity::Rate,
+            "dam-break-small/herschel-bulkley",
+            "dam-break-small/newtonian",
+        )],
+        single_thread: true,
+    },
+    Group {
+        name: "sizes",
+        about: "the Newtonian cube from 10⁵ to 3·10⁷ cells, all threads",
+        cases: &[
+            case("sizes/1e5", "10⁵ cells", |s| vortices(s.pick(46, 22), newtonian())),
+            case("sizes/1e6", "10⁶ cells", |s| vortices(s.pick(100, 46), newtonian())),
+            case("sizes/1e7", "10⁷ cells", |s| vortices(s.pick(216, 100), newtonian())),
+            case("sizes/3e7", "3·10⁷ cells", |s| vortices(s.pick(311, 144), newtonian())),
+        ],
+        compare: &[
+            ratio("10⁵ / 10⁶ cells", Quantity::TimePerUpdate, "sizes/1e5", "sizes/1e6"),
+            ratio("10⁷ / 10⁶ cells", Quantity::TimePerUpdate, "sizes/1e7", "sizes/1e6"),
+            ratio("3·10⁷ / 10⁶ cells", Quantity::TimePerUpdate, "sizes/3e7", "sizes/1e6"),
+        ],
+        single_thread: false,
+    },
+];
