@@ -10,8 +10,8 @@
 mod dual;
 mod pack;
 pub mod powers;
-pub mod unroll;
 pub mod streaming;
+pub mod unroll;
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -293,7 +293,11 @@ fn is_plain(setup: &Setup, layout: &Layout, place: usize) -> bool {
         let fits = last[a] < n;
         let open = setup.faces[a][0] == crate::solver::setup::Face::Periodic;
         let whole = n.is_multiple_of(last[a] + 1 - origin[a]);
-        fits && if open { whole || (origin[a] > 0 && last[a] + 1 < n) } else { origin[a] > 0 && last[a] + 1 < n }
+        fits && if open {
+            whole || (origin[a] > 0 && last[a] + 1 < n)
+        } else {
+            origin[a] > 0 && last[a] + 1 < n
+        }
     });
     if !inside || setup.solids.is_empty() {
         return inside;

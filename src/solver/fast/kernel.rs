@@ -5,23 +5,29 @@ use super::element::{Aligned, Element};
 use super::layout::Layout;
 use super::registers::Registers;
 use super::rim::Rim;
+use super::sources::{Sources, gather};
 use super::stage::{Around, Class, MOST, Stage};
 use super::stores;
 use super::surface::{InterfaceCell, SurfaceView};
 use crate::lane::Lane;
 use crate::lane::unroll::{directions, three};
+use crate::lattice::Q;
 use crate::lattice::moments::Moments;
-use crate::lattice::{C, Q};
 use crate::solver::physics::Physics;
 use crate::solver::plain::cell::runaway;
 use crate::solver::run::Stopped;
 use crate::solver::setup::Setup;
+
+/// Packs between asking for a line and using it: several hundred nanoseconds, more than memory takes.
+const AHEAD: usize = 8;
 
 /// What all blocks of a pass share; everything here is only read.
 pub struct Task<'a, P, E> {
     pub setup: &'a Setup,
     pub physics: &'a P,
     pub layout: &'a Layout,
+    /// Where packs are gathered from.
+    pub sources: &'a [Sources],
     pub blocks: &'a [Block],
     /// Populations after the last collision, or before the first one.
     pub old: &'a [Aligned<E>],
@@ -78,101 +84,23 @@ pub fn block_len(layout: &Layout) -> usize {
     Q * layout.block_cells()
 }
 
-/// Where the rows begin that a row of cells is gathered from: entry of the neighbourhood and first cell, by
-/// direction, before the shift along the row.
-#[derive(Clone, Copy)]
-struct Rows([(usize, usize); Q]);
-
-impl Rows {
-    #[inline(always)]
-    fn new(layout: &Layout, local: usize) -> Self {
-        let [_, j, k] = layout.coordinates(local);
-        let [n, m, l] = layout.block;
-        Self(directions(
-            #[inline(always)]
-            |i| {
-                let (o1, j) = step_back(j, C[i][1], m);
-                let (o2, k) = step_back(k, C[i][2], l);
-                (1 + 3 * o1 + 9 * o2, n * (j + m * k))
-            },
-        ))
-    }
-}
-
-/// Block offset plus one and coordinate of the cell that a velocity component `c` comes from.
-#[inline(always)]
-fn step_back(at: usize, c: i32, size: usize) -> (usize, usize) {
-    match c {
-        1 if at == 0 => (0, size - 1),
-        1 => (1, at - 1),
-        -1 if at + 1 == size => (2, 0),
-        -1 => (1, at + 1),
-        _ => (1, at),
-    }
-}
-
-/// The populations that arrive in part of an ordinary pack, the pack beginning at cell `x` of its row.
-#[inline(always)]
-fn gather<R: Registers>(
-    around: &Around<R::Element>,
-    rows: &Rows,
-    (x, part): (usize, usize),
-    row: usize,
-) -> [R::Pack; Q] {
-    let line = R::Element::PER_LINE;
-    directions(
-        #[inline(always)]
-        |i| {
-            let (entry, first) = rows.0[i];
-            let from = around.slices[entry];
-            let base = index::<R::Element>(first + x, i) + part;
-            match C[i][0] {
-                1 => {
-                    let shifted = R::load(&from[base - 1..]);
-                    if part > 0 {
-                        shifted
-                    } else if x > 0 {
-                        R::with_first(shifted, from[index::<R::Element>(first + x - 1, i)])
-                    } else {
-                        let before = around.slices[entry - 1];
-                        R::with_first(shifted, before[index::<R::Element>(first + row - 1, i)])
-                    }
-                }
-                -1 => {
-                    let shifted = R::load(&from[base + 1..]);
-                    if part + R::WIDTH < line {
-                        shifted
-                    } else if x + line < row {
-                        R::with_last(shifted, from[index::<R::Element>(first + x + line, i)])
-                    } else {
-                        let behind = around.slices[entry + 1];
-                        R::with_last(shifted, behind[index::<R::Element>(first, i)])
-                    }
-                }
-                _ => R::load(&from[base..]),
-            }
-        },
-    )
-}
-
 /// Collides every fluid cell of a block.
 #[inline(always)]
 pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<R::Element>) -> Outcome {
     let mut outcome = Outcome::default();
     let block = &task.blocks[own.number];
-    let layout = task.layout;
     let line = R::Element::PER_LINE;
     let around = Around::new(task, own.number);
-    let row = layout.block[0];
-    let straight = layout.is_straight() && !task.fresh;
-    let mut rows = Rows([(0, 0); Q]);
+    let sources = task.sources;
+    let straight = !sources.is_empty() && !task.fresh;
     let mut stage = Stage::new();
     let mut liquid = [0.0; MOST];
+    let next = task.old.get(own.number + 1).map_or(&[][..], Aligned::get);
     for pack in 0..block.usable.len() {
         let local = pack * line;
-        let x = local & (row - 1);
-        if x == 0 && straight {
-            rows = Rows::new(layout, local);
+        prefetch_line_group(next, pack + AHEAD);
+        if let Some(later) = sources.get(pack + AHEAD / 2) {
+            later.prefetch(&around);
         }
         let class = Class::new(task, block, own.number, pack, line);
         if class.fluid == 0 {
@@ -184,7 +112,7 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
         }
         for part in (0..line).step_by(R::WIDTH) {
             let h = if ordinary {
-                gather::<R>(&around, &rows, (x, part), row)
+                gather::<R>(&around, &sources[pack], part)
             } else {
                 directions(
                     #[inline(always)]
@@ -256,6 +184,14 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
     outcome
 }
 
+/// Asks for the lines of a pack of the next block.
+#[inline(always)]
+fn prefetch_line_group<E: Element>(next: &[E], pack: usize) {
+    for i in 0..Q {
+        stores::prefetch(next, (pack * Q + i) * E::PER_LINE);
+    }
+}
+
 /// ω⁺ of a pack: one law after the other where it holds several fluids.
 #[inline(always)]
 fn omega<R: Registers, P: Physics>(
@@ -269,8 +205,7 @@ fn omega<R: Registers, P: Physics>(
         return R::Pack::splat(omega);
     }
     let q = task.physics.stress_magnitude(m);
-    let previous =
-        if own.lag.is_empty() { R::Pack::zero() } else { R::load_wide(&own.lag[local..]) };
+    let previous = if own.lag.is_empty() { R::Pack::zero() } else { R::load_wide(&own.lag[local..]) };
     let numbers = block.fluid.get(local..local + R::WIDTH).unwrap_or(&[0]);
     let mut omega = R::Pack::zero();
     let mut numbered = [0.0; MOST];

@@ -9,6 +9,7 @@ pub mod registers;
 mod report;
 pub mod rim;
 mod run;
+pub mod sources;
 pub mod stage;
 pub mod stores;
 pub mod surface;

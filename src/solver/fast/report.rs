@@ -23,7 +23,9 @@ impl<P: Physics> FastRun<P> {
 
     pub(super) fn holds_fluid(&self, number: usize, local: usize) -> bool {
         match &self.surface {
-            None => self.blocks[number].usable[local / super::run::LINE] >> (local % super::run::LINE) & 1 != 0,
+            None => {
+                self.blocks[number].usable[local / super::run::LINE] >> (local % super::run::LINE) & 1 != 0
+            }
             Some(surface) => surface.kinds[number][local].is_fluid(),
         }
     }
@@ -69,7 +71,9 @@ impl<P: Physics> Run for FastRun<P> {
     fn populations(&self, cell: usize) -> [f64; Q] {
         let cells = self.layout.block_cells();
         match self.layout.slot(self.setup.coordinates(cell)) {
-            Some(slot) if self.holds_fluid(slot / cells, slot % cells) => self.arrived(slot / cells, slot % cells),
+            Some(slot) if self.holds_fluid(slot / cells, slot % cells) => {
+                self.arrived(slot / cells, slot % cells)
+            }
             _ => [0.0; Q],
         }
     }

@@ -8,6 +8,7 @@ use super::instructions::{self, Chosen};
 use super::kernel::{Outcome, Own, Task, block_len, index};
 use super::layout::{Layout, NONE};
 use super::rim::{Rim, WallTask, correct};
+use super::sources::Sources;
 use super::stage::{Around, after, open_link, wall_link};
 use super::stores;
 use super::surface::Surface;
@@ -28,6 +29,7 @@ pub struct FastRun<P> {
     pub(super) physics: P,
     pub(super) chosen: Chosen,
     pub(super) layout: Layout,
+    pub(super) sources: Vec<Sources>,
     pub(super) velocities: Velocities,
     pub(super) blocks: Vec<Block>,
     /// Populations after the last collision; before the first one at step 0.
@@ -64,11 +66,13 @@ impl<P: Physics> FastRun<P> {
         let pool = (setup.threads > 1)
             .then(|| rayon::ThreadPoolBuilder::new().num_threads(setup.threads).build().ok())
             .flatten();
+        let layout = Layout::new(setup.extents, LINE);
         let mut run = Self {
             setup: setup.clone(),
             physics,
             chosen,
-            layout: Layout::new(setup.extents, LINE),
+            sources: Sources::all::<f64>(&layout),
+            layout,
             velocities: Velocities::default(),
             blocks: Vec::new(),
             old: Vec::new(),
@@ -154,9 +158,9 @@ impl<P: Physics> FastRun<P> {
         let blocks = &self.blocks;
         let (old, lag) = (&mut self.old, &mut self.lag);
         self.fluid_cells = match &self.pool {
-            Some(pool) => {
-                pool.install(|| blocks.par_iter().zip(old.par_iter_mut()).zip(lag.par_iter_mut()).map(work).sum())
-            }
+            Some(pool) => pool.install(|| {
+                blocks.par_iter().zip(old.par_iter_mut()).zip(lag.par_iter_mut()).map(work).sum()
+            }),
             None => blocks.iter().zip(old.iter_mut()).zip(lag.iter_mut()).map(work).sum(),
         };
     }
@@ -166,6 +170,7 @@ impl<P: Physics> FastRun<P> {
             setup: &self.setup,
             physics: &self.physics,
             layout: &self.layout,
+            sources: &self.sources,
             blocks: &self.blocks,
             old: &self.old,
             fresh: self.fresh,
@@ -213,8 +218,13 @@ impl<P: Physics> FastRun<P> {
             .zip(&mut lag)
             .zip(&mut interface)
             .enumerate()
-            .map(|(number, ((((new, rim), density), lag), interface))| {
-                Own { number, new, rim, density, lag, interface }
+            .map(|(number, ((((new, rim), density), lag), interface))| Own {
+                number,
+                new,
+                rim,
+                density,
+                lag,
+                interface,
             })
             .collect();
         let chosen = self.chosen;

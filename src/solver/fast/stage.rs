@@ -48,12 +48,20 @@ impl<'a, E: Element> Around<'a, E> {
     pub fn new<P>(task: &Task<'a, P, E>, number: usize) -> Self {
         let old: &'a [Aligned<E>] = task.old;
         let own = old[number].get();
+        // What the unchecked loads of `sources::gather` rely on.
+        assert_eq!(own.len(), super::kernel::block_len(task.layout));
         let numbers = numbers_around(task.layout, task.blocks[number].place);
         let slices = numbers.map(|n| match n {
             NONE => own,
-            n => old[n as usize].get(),
+            n => Some(old[n as usize].get()).filter(|other| other.len() == own.len()).unwrap_or(own),
         });
         Self { slices }
+    }
+
+    /// The populations of one of the 27.
+    #[inline(always)]
+    pub fn entry(&self, at: usize) -> &'a [E] {
+        super::stores::entry(&self.slices, at)
     }
 }
 
@@ -136,8 +144,7 @@ impl<E: Element> Stage<E> {
             let value = match link.from {
                 From::Cell { cell, direction } => {
                     let number = task.layout.block_at(cell.block as usize);
-                    task.old[number as usize].get()
-                        [index::<E>(cell.local as usize, usize::from(direction))]
+                    task.old[number as usize].get()[index::<E>(cell.local as usize, usize::from(direction))]
                 }
                 From::Wall { velocity, .. } => {
                     if rho.0 != at {

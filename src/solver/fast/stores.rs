@@ -15,7 +15,10 @@ pub const LINE_BYTES: usize = 64;
 pub fn line_past_cache<E: Element>(to: &mut [E], from: &[E]) {
     debug_assert!(to.len() == E::PER_LINE && from.len() == E::PER_LINE);
     #[cfg(target_arch = "x86_64")]
-    if to.as_ptr().addr().is_multiple_of(LINE_BYTES) && size_of_val(to) == LINE_BYTES && to.len() == from.len() {
+    if to.as_ptr().addr().is_multiple_of(LINE_BYTES)
+        && size_of_val(to) == LINE_BYTES
+        && to.len() == from.len()
+    {
         use std::arch::x86_64::{__m128i, _mm_loadu_si128, _mm_stream_si128};
         let (source, target) = (from.as_ptr().cast::<__m128i>(), to.as_mut_ptr().cast::<__m128i>());
         for k in 0..4 {
@@ -35,4 +38,45 @@ pub fn fence() {
     unsafe {
         std::arch::x86_64::_mm_sfence();
     }
+}
+
+/// Asks the processor to fetch the line of a number soon; nothing happens where there is no such instruction.
+#[inline(always)]
+pub fn prefetch<E: Element>(from: &[E], at: usize) {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: a prefetch reads nothing and may name any address.
+    unsafe {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        _mm_prefetch::<_MM_HINT_T0>(from.as_ptr().wrapping_add(at).cast());
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (from, at);
+}
+
+/// A number of a slice, checked in tests only.
+///
+/// The 29 places a pack is gathered from are tabulated for all blocks alike ([`super::sources`]), and a block's
+/// numbers are as many as the table was made for; to check each of them again for every pack takes a
+/// fifth of the time of a step.
+#[inline(always)]
+pub fn number<E: Element>(from: &[E], at: usize) -> E {
+    debug_assert!(at < from.len());
+    // SAFETY: `Sources` names places below the length of a block, and `Around` holds whole blocks only.
+    unsafe { *from.get_unchecked(at) }
+}
+
+/// `len` numbers of a slice from a place on, checked in tests only; see [`number`].
+#[inline(always)]
+pub fn numbers<E: Element>(from: &[E], at: usize, len: usize) -> &[E] {
+    debug_assert!(at + len <= from.len());
+    // SAFETY: as for `number`.
+    unsafe { from.get_unchecked(at..at + len) }
+}
+
+/// An entry of the neighbourhood, checked in tests only; see [`number`].
+#[inline(always)]
+pub fn entry<'a, E: Element>(slices: &[&'a [E]; 27], at: usize) -> &'a [E] {
+    debug_assert!(at < slices.len());
+    // SAFETY: `Sources` names entries 0 to 26.
+    unsafe { slices.get_unchecked(at) }
 }

@@ -102,8 +102,14 @@ impl<P: Physics> PlainRun<P> {
                 let state = self.state(at, force);
                 let sourced = self.setup.stress_source;
                 let situation = cell::Situation { residual, fluid, sourced, limited: false };
-                self.corrections[slot] =
-                    cell::wall_correction(&self.physics, record.walls, &record.normal, &self.f[at], &state, &situation);
+                self.corrections[slot] = cell::wall_correction(
+                    &self.physics,
+                    record.walls,
+                    &record.normal,
+                    &self.f[at],
+                    &state,
+                    &situation,
+                );
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The free surface in blocks.
 
-use super::layout::Layout;
 use super::kernel::Outcome;
+use super::layout::Layout;
 use super::run::FastRun;
 use crate::free_surface::Kind;
 use crate::lattice::Q;
@@ -47,21 +47,43 @@ pub struct Surface {
     pub loads: Vec<Load>,
 }
 impl Surface {
-    pub fn view(&self) -> SurfaceView<'_> { unreachable!() }
-    pub fn force_at<P>(&self, _r: &FastRun<P>, _n: usize, _l: usize, _f: &[f64; 3]) -> Option<[f64; 3]> { None }
-    pub fn interface_cell(&self, _n: usize, _l: usize) -> Option<&InterfaceCell> { None }
+    pub fn view(&self) -> SurfaceView<'_> {
+        unreachable!()
+    }
+    pub fn force_at<P>(&self, _r: &FastRun<P>, _n: usize, _l: usize, _f: &[f64; 3]) -> Option<[f64; 3]> {
+        None
+    }
+    pub fn interface_cell(&self, _n: usize, _l: usize) -> Option<&InterfaceCell> {
+        None
+    }
     pub fn start_fields<P>(&self, _r: &FastRun<P>, _f: &mut Fields) {}
-    pub fn fill_of(&self, _n: usize, _l: usize, _r: f64) -> f64 { 0.0 }
-    pub fn mass_of(&self, _n: usize, _l: usize, _m: &Moments<f64>) -> (f64, f64) { (0.0, 0.0) }
+    pub fn fill_of(&self, _n: usize, _l: usize, _r: f64) -> f64 {
+        0.0
+    }
+    pub fn mass_of(&self, _n: usize, _l: usize, _m: &Moments<f64>) -> (f64, f64) {
+        (0.0, 0.0)
+    }
     pub fn hash_cell(&self, _h: &mut Hasher, _c: usize, _n: usize, _l: usize) {}
-    pub fn fluid_cells(&self) -> u64 { 0 }
-    pub fn bytes(&self) -> u64 { 0 }
+    pub fn fluid_cells(&self) -> u64 {
+        0
+    }
+    pub fn bytes(&self) -> u64 {
+        0
+    }
 }
 impl<P: Physics> FastRun<P> {
-    pub fn start_surface(&mut self) -> Result<(), StartError> { Ok(()) }
-    pub fn close_last_step(&mut self, _o: &[Outcome]) -> Result<(), Stopped> { Ok(()) }
+    pub fn start_surface(&mut self) -> Result<(), StartError> {
+        Ok(())
+    }
+    pub fn close_last_step(&mut self, _o: &[Outcome]) -> Result<(), Stopped> {
+        Ok(())
+    }
     pub fn surface_pass(&mut self, _f: &[f64; 3]) {}
-    pub fn settle(&mut self) -> Result<(), Stopped> { Ok(()) }
-    pub fn make_ledger(&self) -> Option<Ledger> { None }
+    pub fn settle(&mut self) -> Result<(), Stopped> {
+        Ok(())
+    }
+    pub fn make_ledger(&self) -> Option<Ledger> {
+        None
+    }
     pub fn hash_rest(&self, _h: &mut Hasher) {}
 }

@@ -111,8 +111,14 @@ impl<P: Physics> SurfaceRun<P> {
             let state = self.state(at, &force);
             let sourced = self.setup.stress_source;
             let situation = cell::Situation { residual, fluid: 0, sourced, limited: true };
-            self.corrections[slot] =
-                cell::wall_correction(&self.physics, record.walls, &record.normal, &self.f[at], &state, &situation);
+            self.corrections[slot] = cell::wall_correction(
+                &self.physics,
+                record.walls,
+                &record.normal,
+                &self.f[at],
+                &state,
+                &situation,
+            );
         }
     }
 

@@ -1,0 +1,96 @@
+//! Where ordinary packs are gathered from: the same for every block, hence tabulated.
+
+use super::element::Element;
+use super::kernel::index;
+use super::layout::Layout;
+use super::registers::Registers;
+use super::stage::Around;
+use super::stores::{self, number};
+use crate::lane::unroll::directions;
+use crate::lattice::{C, Q};
+
+/// Sources of one pack, by direction, before the shift along the row: entry of the neighbourhood
+/// ([`Layout::around`]) and first number in that block.
+#[derive(Clone, Debug)]
+pub struct Sources {
+    from: [(u32, u32); Q],
+    /// Numbers between the beginning of the row and the pack, and between the pack and the last one of the row.
+    before: u32,
+    behind: u32,
+    /// Directions that come from rows of other blocks.
+    far: Vec<u8>,
+}
+
+impl Sources {
+    /// Of every pack of a block; empty where rows do not run along x (such boxes are small).
+    #[must_use]
+    pub fn all<E: Element>(layout: &Layout) -> Vec<Self> {
+        if !layout.is_straight() {
+            return Vec::new();
+        }
+        (0..layout.block_cells() / E::PER_LINE).map(|pack| Self::new::<E>(layout, pack)).collect()
+    }
+
+    fn new<E: Element>(layout: &Layout, pack: usize) -> Self {
+        let local = pack * E::PER_LINE;
+        let row = layout.block[0];
+        let x = layout.coordinates(local)[0];
+        let from = directions(|i| {
+            let (entry, first) = layout.upstream_row(local, i);
+            (entry as u32, index::<E>(first + x, i) as u32)
+        });
+        let far = (0..Q as u8).filter(|&i| from[usize::from(i)].0 != 13).collect();
+        Self { from, before: (x * Q) as u32, behind: ((row - x - E::PER_LINE) * Q) as u32, far }
+    }
+
+    /// Asks for the lines of other blocks early: they come without a pattern that the processor could guess.
+    #[inline(always)]
+    pub fn prefetch<E: Element>(&self, around: &Around<E>) {
+        for &i in &self.far {
+            let (entry, base) = self.from[usize::from(i)];
+            stores::prefetch(around.slices[entry as usize], base as usize);
+            // The end of a row that lies one block further has not been touched by the block before.
+            if C[usize::from(i)][0] == -1 && self.behind == 0 {
+                stores::prefetch(around.slices[entry as usize + 1], (base - self.before) as usize);
+            }
+        }
+    }
+}
+
+/// The populations that arrive in part of an ordinary pack.
+#[inline(always)]
+pub fn gather<R: Registers>(around: &Around<R::Element>, sources: &Sources, part: usize) -> [R::Pack; Q] {
+    let line = R::Element::PER_LINE;
+    directions(
+        #[inline(always)]
+        |i| {
+            let (entry, base) = (sources.from[i].0 as usize, sources.from[i].1 as usize);
+            let from = around.entry(entry);
+            match C[i][0] {
+                1 => {
+                    let shifted = R::load_at(from, base + part - 1);
+                    if part > 0 {
+                        shifted
+                    } else if sources.before > 0 {
+                        R::with_first(shifted, number(from, base - Q * line + line - 1))
+                    } else {
+                        let last = base + sources.behind as usize + line - 1;
+                        R::with_first(shifted, number(around.entry(entry - 1), last))
+                    }
+                }
+                -1 => {
+                    let shifted = R::load_at(from, base + part + 1);
+                    if part + R::WIDTH < line {
+                        shifted
+                    } else if sources.behind > 0 {
+                        R::with_last(shifted, number(from, base + Q * line))
+                    } else {
+                        let first = base - sources.before as usize;
+                        R::with_last(shifted, number(around.entry(entry + 1), first))
+                    }
+                }
+                _ => R::load_at(from, base + part),
+            }
+        },
+    )
+}
