@@ -242,7 +242,8 @@ fn wall_normal(towards: [i32; 3], spread: [i32; 3]) -> [f64; 3] {
 ///
 /// A wall on any axis bounces back; free-slip planes are unfolded: the mirrored component of the
 /// velocity is reversed and the source stays on this side \[B2\].
-fn resolve(setup: &Setup, at: [usize; 3], i: usize) -> (Source, bool) {
+#[must_use]
+pub fn resolve(setup: &Setup, at: [usize; 3], i: usize) -> (Source, bool) {
     let mut upstream = at;
     let mut c = C[i];
     let mut ordinary = true;

@@ -1,6 +1,8 @@
 //! State, steps and the backends that take them.
 
+pub mod books;
 pub mod check;
+pub mod conversion;
 pub mod fast;
 pub mod fingerprint;
 pub mod initial;

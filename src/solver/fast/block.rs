@@ -59,6 +59,8 @@ pub struct RimCell {
 pub struct Block {
     /// Its place in [`Layout`].
     pub place: usize,
+    /// Cells per pack.
+    pub line: u16,
     /// First cell, box coordinates.
     pub origin: [usize; 3],
     /// Bit per lane, by pack: inside the box and not solid.
@@ -110,6 +112,7 @@ impl Block {
         let packs = cells / width;
         let mut block = Self {
             place,
+            line: width as u16,
             origin,
             usable: vec![0; packs],
             links: Vec::new(),
@@ -197,6 +200,36 @@ impl Block {
             }
             self.rim.push(rim);
         }
+    }
+
+    /// Whether a cell lies in the box and is not solid.
+    #[must_use]
+    pub fn is_usable(&self, local: usize) -> bool {
+        let width = self.width();
+        self.usable.get(local / width).is_some_and(|lanes| lanes >> (local % width) & 1 != 0)
+    }
+
+    fn width(&self) -> usize {
+        usize::from(self.line)
+    }
+
+    /// Gives everything up; nothing of the block is used after that.
+    pub fn clear(&mut self) {
+        self.usable = Vec::new();
+        self.links = Vec::new();
+        self.first_link = Vec::new();
+        self.rim = Vec::new();
+        self.fluid = Vec::new();
+    }
+
+    /// Irregular links of a cell, in order of the directions.
+    #[inline]
+    #[must_use]
+    pub fn links_of_cell(&self, local: usize, width: usize) -> &[Link] {
+        let links = self.links_of(local / width);
+        let first = links.partition_point(|link| usize::from(link.local) < local);
+        let last = links.partition_point(|link| usize::from(link.local) <= local);
+        &links[first..last]
     }
 
     /// Links of a pack.

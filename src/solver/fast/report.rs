@@ -23,9 +23,7 @@ impl<P: Physics> FastRun<P> {
 
     pub(super) fn holds_fluid(&self, number: usize, local: usize) -> bool {
         match &self.surface {
-            None => {
-                self.blocks[number].usable[local / super::run::LINE] >> (local % super::run::LINE) & 1 != 0
-            }
+            None => self.blocks[number].is_usable(local),
             Some(surface) => surface.kinds[number][local].is_fluid(),
         }
     }

@@ -11,7 +11,7 @@ use super::rim::{Rim, WallTask, correct};
 use super::sources::Sources;
 use super::stage::{Around, after, open_link, wall_link};
 use super::stores;
-use super::surface::Surface;
+use super::surface::{Surface, put};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
 use crate::solver::initial;
@@ -109,18 +109,19 @@ impl<P: Physics> FastRun<P> {
             return None;
         }
         let cells = self.layout.block_cells();
-        let number = self.blocks.len();
+        let given_up = self.surface.as_mut().and_then(|surface| surface.free.pop());
+        let number = given_up.unwrap_or(self.blocks.len());
         self.layout.set_block(place, number as u32);
         let open = block.rim.iter().any(|cell| cell.open);
         let rim = if self.corrected() || open { block.rim.len() } else { 0 };
         let walls = self.corrected() && self.has_walls();
-        self.rim.push(vec![Rim::default(); rim]);
-        self.density.push(vec![0.0; if walls { cells } else { 0 }]);
+        put(&mut self.rim, number, vec![Rim::default(); rim]);
+        put(&mut self.density, number, vec![0.0; if walls { cells } else { 0 }]);
         let lagged = matches!(self.setup.yielding, YieldTreatment::LaggedClamped { .. });
-        self.lag.push(vec![0.0; if lagged { cells } else { 0 }]);
-        self.old.push(Aligned::zeros(block_len(&self.layout)));
-        self.new.push(Aligned::zeros(block_len(&self.layout)));
-        self.blocks.push(block);
+        put(&mut self.lag, number, vec![0.0; if lagged { cells } else { 0 }]);
+        put(&mut self.old, number, Aligned::zeros(block_len(&self.layout)));
+        put(&mut self.new, number, Aligned::zeros(block_len(&self.layout)));
+        put(&mut self.blocks, number, block);
         Some(number)
     }
 
@@ -264,7 +265,7 @@ impl<P: Physics> FastRun<P> {
     pub(super) fn force_of(&self, number: usize, local: usize, force: &[f64; 3]) -> Option<[f64; 3]> {
         match &self.surface {
             None => Some(*force),
-            Some(surface) => surface.force_at(self, number, local, force),
+            Some(surface) => surface.force_at(number, local, force),
         }
     }
 
@@ -284,7 +285,7 @@ impl<P: Physics> FastRun<P> {
         if self.fresh {
             return own;
         }
-        if let Some(cell) = self.surface.as_ref().and_then(|s| s.interface_cell(number, local)) {
+        if let Some(cell) = self.surface.as_ref().and_then(|s| s.record(number, local)) {
             return cell.f;
         }
         let block = &self.blocks[number];
@@ -313,7 +314,7 @@ impl<P: Physics> FastRun<P> {
         for _ in 0..steps {
             self.advance_one()?;
         }
-        self.settle()
+        Ok(())
     }
 }
 

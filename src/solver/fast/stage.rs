@@ -5,6 +5,7 @@ use super::element::{Aligned, Element};
 use super::kernel::{Own, Task, index};
 use super::layout::{Layout, NONE};
 use super::registers::Registers;
+use super::surface::Lanes;
 use crate::lattice::moments::{Moments, density_excess};
 use crate::lattice::{Q, opposite};
 use crate::solver::physics::Physics;
@@ -19,6 +20,8 @@ pub struct Class {
     pub fluid: u16,
     /// Bit per lane: interface.
     pub interface: u16,
+    /// Bit per lane: has a record of its own.
+    pub kept: u16,
     /// All lanes are fluid, none is interface, all links are the grid's.
     pub ordinary: bool,
 }
@@ -27,13 +30,13 @@ impl Class {
     /// Of a pack of a block.
     #[inline(always)]
     pub fn new<P, E>(task: &Task<P, E>, block: &Block, number: usize, pack: usize, line: usize) -> Self {
-        let (fluid, interface) = match &task.surface {
-            None => (block.usable[pack], 0),
-            Some(surface) => surface.masks[number][pack],
+        let Lanes { fluid, interface, kept } = match &task.surface {
+            None => Lanes { fluid: block.usable[pack], ..Lanes::default() },
+            Some(surface) => surface.lanes[number][pack],
         };
         let all = u16::MAX >> (16 - line);
         let links = block.first_link[pack] != block.first_link[pack + 1];
-        Self { fluid, interface, ordinary: fluid == all && interface == 0 && !links }
+        Self { fluid, interface, kept, ordinary: fluid == all && kept == 0 && !links }
     }
 }
 
@@ -113,8 +116,8 @@ impl<E: Element> Stage<E> {
         if !task.fresh {
             self.fill_links(task, block, own, class, local);
         }
-        if class.interface != 0 {
-            self.fill_interface(task, own, local);
+        if class.kept != 0 {
+            self.fill_interface(task, own, class, local);
         }
         let idle = !class.fluid;
         for lane in (0..line).filter(|lane| idle >> lane & 1 != 0) {
@@ -138,7 +141,7 @@ impl<E: Element> Stage<E> {
         for link in block.links_of(local / E::PER_LINE) {
             let at = usize::from(link.local);
             let lane = at - local;
-            if (class.fluid & !class.interface) >> lane & 1 == 0 {
+            if (class.fluid & !class.kept) >> lane & 1 == 0 {
                 continue;
             }
             let value = match link.from {
@@ -159,7 +162,7 @@ impl<E: Element> Stage<E> {
         }
     }
 
-    fn fill_interface<P: Physics>(&mut self, task: &Task<P, E>, own: &Own<E>, local: usize) {
+    fn fill_interface<P: Physics>(&mut self, task: &Task<P, E>, own: &Own<E>, class: &Class, local: usize) {
         let Some(surface) = &task.surface else { return };
         self.force = task.force.map(|f| [f; MOST]);
         let start = own.interface.partition_point(|cell| usize::from(cell.local) < local);
@@ -170,9 +173,11 @@ impl<E: Element> Stage<E> {
             for (column, f) in self.populations.iter_mut().zip(&cell.f) {
                 column[lane] = E::from_f64(*f);
             }
-            let force = surface.force_of(own.number, usize::from(cell.local), &task.force, task.layout);
-            for a in 0..3 {
-                self.force[a][lane] = force[a];
+            if class.interface >> lane & 1 != 0 {
+                let force = surface.force_of(own.number, usize::from(cell.local), &task.force);
+                for a in 0..3 {
+                    self.force[a][lane] = force[a];
+                }
             }
         }
     }
@@ -215,7 +220,7 @@ impl<E: Element> Stage<E> {
                 (kept.velocity, kept.omega) = (u(lane), self.omega[lane]);
             }
         }
-        if class.interface != 0 {
+        if class.kept != 0 {
             let start = own.interface.partition_point(|cell| usize::from(cell.local) < local);
             for cell in &mut own.interface[start..] {
                 let Some(lane) = inside(cell.local) else { break };

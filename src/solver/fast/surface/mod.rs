@@ -1,89 +1,227 @@
-//! The free surface in blocks.
+//! The free surface in blocks: interface cells have a record of their own, liquid cells none.
+//!
+//! A step is: collide all cells (the populations of interface cells come from their records), wall
+//! corrections, stream and exchange mass in interface cells, marks and conversions. Liquid cells stream when
+//! they are gathered for the next collision; the densities found there close the ledger of the step
+//! before.
+
+mod convert;
+mod exchange;
+mod report;
+mod start;
+
+use std::collections::BTreeMap;
+
+pub(super) use start::put;
 
 use super::kernel::Outcome;
-use super::layout::Layout;
-use super::run::FastRun;
+use super::run::{FastRun, LINE};
 use crate::free_surface::Kind;
+use crate::free_surface::force::interface_force;
 use crate::lattice::Q;
-use crate::lattice::moments::Moments;
-use crate::solver::fingerprint::Hasher;
+use crate::solver::books::Books;
 use crate::solver::physics::Physics;
-use crate::solver::run::{Fields, Ledger, Load, StartError, Stopped};
+use crate::solver::run::{Load, Runaway, Stopped};
+use crate::solver::setup::{FreeSurface, SurfaceForce};
 
-/// An interface cell.
+/// Steps between two searches for blocks that have run dry.
+const STEPS_PER_SEARCH: u64 = 64;
+
+/// A cell whose populations are kept: interface, or liquid since the last step.
 #[derive(Clone, Debug)]
 pub struct InterfaceCell {
     /// Place in the block.
     pub local: u16,
-    /// What it touches.
+    /// What it touched while streaming, bits of [`crate::solver::conversion::touch`].
     pub touches: u8,
-    /// Populations before collision.
+    /// Populations before the next collision.
     pub f: [f64; Q],
+    /// Their density.
+    pub rho: f64,
     /// u of the last collision.
     pub velocity: [f64; 3],
     /// m.
     pub mass: f64,
 }
 
+/// Lanes of a pack, a bit each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lanes {
+    /// Liquid or interface.
+    pub fluid: u16,
+    /// Interface.
+    pub interface: u16,
+    /// With a record: interface, or liquid since the last step.
+    pub kept: u16,
+}
+
 /// What the passes read of the surface.
 #[derive(Clone, Copy)]
 pub struct SurfaceView<'a> {
-    /// Fluid and interface lanes by block and pack.
-    pub masks: &'a [Vec<(u16, u16)>],
-    /// φ.
-    pub fill: &'a [Vec<f64>],
+    /// By block and pack.
+    pub lanes: &'a [Vec<Lanes>],
+    /// φ, by block and cell.
+    fill: &'a [Vec<f64>],
+    rule: SurfaceForce,
 }
 
 impl SurfaceView<'_> {
-    /// F.
-    pub fn force_of(&self, number: usize, local: usize, force: &[f64; 3], _layout: &Layout) -> [f64; 3] {
-        force.map(|f| self.fill[number][local] * f)
+    /// Body force of an interface cell \[F3\].
+    #[inline]
+    #[must_use]
+    pub fn force_of(&self, number: usize, local: usize, force: &[f64; 3]) -> [f64; 3] {
+        interface_force(self.rule, force, self.fill[number][local], &[0.0; 3])
     }
 }
 
+/// The surface of a run.
 pub struct Surface {
-    pub interface: Vec<Vec<InterfaceCell>>,
-    pub kinds: Vec<Vec<Kind>>,
-    pub loads: Vec<Load>,
+    /// The rules; without the initial fill.
+    pub(super) rules: FreeSurface,
+    /// By block and cell.
+    pub(super) kinds: Vec<Vec<Kind>>,
+    /// φ, by block and cell: 1 in liquid, 0 in gas.
+    pub(super) fill: Vec<Vec<f64>>,
+    /// By block and pack.
+    pub(super) lanes: Vec<Vec<Lanes>>,
+    /// By block, in order of the cells.
+    pub(super) interface: Vec<Vec<InterfaceCell>>,
+    /// Excess mass without receiver, by cell of the box \[F6\].
+    pub(super) parked: BTreeMap<u32, f64>,
+    pub(super) books: Books,
+    pub(super) loads: Vec<Load>,
+    /// Liquid and interface cells.
+    pub(super) counts: [u64; 2],
+    /// Numbers of blocks that were given up.
+    pub(super) free: Vec<usize>,
+    /// Whether a step waits for its ledger to be closed.
+    pub(super) open: bool,
 }
+
 impl Surface {
+    /// What the passes read.
+    #[must_use]
     pub fn view(&self) -> SurfaceView<'_> {
-        unreachable!()
+        SurfaceView { lanes: &self.lanes, fill: &self.fill, rule: self.rules.force }
     }
-    pub fn force_at<P>(&self, _r: &FastRun<P>, _n: usize, _l: usize, _f: &[f64; 3]) -> Option<[f64; 3]> {
-        None
+
+    /// Body force of a cell \[F3\]; `None` where it holds no fluid.
+    #[must_use]
+    pub fn force_at(&self, number: usize, local: usize, force: &[f64; 3]) -> Option<[f64; 3]> {
+        match self.kinds[number][local] {
+            Kind::Interface => Some(self.view().force_of(number, local, force)),
+            Kind::Liquid => Some(*force),
+            Kind::Gas | Kind::Solid => None,
+        }
     }
-    pub fn interface_cell(&self, _n: usize, _l: usize) -> Option<&InterfaceCell> {
-        None
+
+    /// Record of a cell.
+    #[must_use]
+    pub fn record(&self, number: usize, local: usize) -> Option<&InterfaceCell> {
+        let list = &self.interface[number];
+        list.binary_search_by_key(&local, |cell| usize::from(cell.local)).ok().map(|k| &list[k])
     }
-    pub fn start_fields<P>(&self, _r: &FastRun<P>, _f: &mut Fields) {}
-    pub fn fill_of(&self, _n: usize, _l: usize, _r: f64) -> f64 {
-        0.0
-    }
-    pub fn mass_of(&self, _n: usize, _l: usize, _m: &Moments<f64>) -> (f64, f64) {
-        (0.0, 0.0)
-    }
-    pub fn hash_cell(&self, _h: &mut Hasher, _c: usize, _n: usize, _l: usize) {}
-    pub fn fluid_cells(&self) -> u64 {
-        0
-    }
-    pub fn bytes(&self) -> u64 {
-        0
+
+    /// Kinds of a block into bits.
+    fn list_lanes(&mut self, number: usize) {
+        let mut lanes = vec![Lanes::default(); self.kinds[number].len() / LINE];
+        for (local, kind) in self.kinds[number].iter().enumerate() {
+            let lane = &mut lanes[local / LINE];
+            lane.fluid |= u16::from(kind.is_fluid()) << (local % LINE);
+            lane.interface |= u16::from(*kind == Kind::Interface) << (local % LINE);
+        }
+        for cell in &self.interface[number] {
+            lanes[usize::from(cell.local) / LINE].kept |= 1 << (usize::from(cell.local) % LINE);
+        }
+        self.lanes[number] = lanes;
     }
 }
+
 impl<P: Physics> FastRun<P> {
-    pub fn start_surface(&mut self) -> Result<(), StartError> {
-        Ok(())
+    /// Streaming, mass exchange and conversions of the step whose collision is done.
+    pub(super) fn surface_pass(&mut self, force: &[f64; 3]) {
+        if self.surface.is_none() {
+            return;
+        }
+        self.drop_settled();
+        self.exchange(force);
+        self.convert_cells(force);
+        if self.step.is_multiple_of(STEPS_PER_SEARCH) {
+            self.drop_dry_blocks();
+        }
+        if let Some(surface) = &mut self.surface {
+            surface.open = true;
+        }
     }
-    pub fn close_last_step(&mut self, _o: &[Outcome]) -> Result<(), Stopped> {
-        Ok(())
+
+    /// Records of cells that are liquid by now have done their work.
+    fn drop_settled(&mut self) {
+        let Some(surface) = &mut self.surface else { return };
+        for number in 0..surface.interface.len() {
+            let (list, kinds) = (&mut surface.interface[number], &surface.kinds[number]);
+            let before = list.len();
+            list.retain(|cell| kinds[usize::from(cell.local)] == Kind::Interface);
+            if list.len() != before {
+                surface.list_lanes(number);
+            }
+        }
     }
-    pub fn surface_pass(&mut self, _f: &[f64; 3]) {}
-    pub fn settle(&mut self) -> Result<(), Stopped> {
-        Ok(())
+
+    /// Gives up blocks without fluid.
+    fn drop_dry_blocks(&mut self) {
+        let Some(surface) = &mut self.surface else { return };
+        for number in 0..self.blocks.len() {
+            let dry = surface.lanes[number].iter().all(|lane| lane.fluid == 0);
+            if dry && !self.old[number].is_empty() {
+                self.layout.set_block(self.blocks[number].place, super::layout::NONE);
+                self.old[number] = Default::default();
+                self.new[number] = Default::default();
+                for list in [&mut self.density, &mut self.lag, &mut surface.fill] {
+                    list[number] = Vec::new();
+                }
+                self.rim[number] = Vec::new();
+                surface.kinds[number] = Vec::new();
+                surface.lanes[number] = Vec::new();
+                self.blocks[number].clear();
+                surface.free.push(number);
+            }
+        }
     }
-    pub fn make_ledger(&self) -> Option<Ledger> {
-        None
+
+    /// Closes the mass of the last step with the densities that this collision found.
+    ///
+    /// # Errors
+    /// It does not close within rounding; the cell named is the interface cell with the largest |m| off
+    /// its fill.
+    pub(super) fn close_last_step(&mut self, outcomes: &[Outcome]) -> Result<(), Stopped> {
+        let Some(surface) = &mut self.surface else { return Ok(()) };
+        if !std::mem::take(&mut surface.open) {
+            return Ok(());
+        }
+        let mut mass: f64 = outcomes.iter().map(|outcome| outcome.liquid_excess).sum();
+        let mut worst = (0, 0, -1.0);
+        for (number, list) in surface.interface.iter().enumerate() {
+            let mut sum = 0.0;
+            for cell in list {
+                let local = usize::from(cell.local);
+                if surface.kinds[number][local] == Kind::Interface {
+                    sum += cell.mass;
+                    let off = (cell.mass - surface.fill[number][local]).abs();
+                    if off.is_nan() || off > worst.2 {
+                        worst = (number, local, if off.is_nan() { f64::INFINITY } else { off });
+                    }
+                }
+            }
+            mass += sum;
+        }
+        mass += surface.counts[0] as f64;
+        mass += surface.parked.values().sum::<f64>();
+        let cells = surface.counts[0] + surface.counts[1];
+        let Some((residual, bound)) = surface.books.close(mass, cells) else { return Ok(()) };
+        if self.physics.is_mutant() {
+            return Ok(());
+        }
+        let cell = self.layout.cell(self.blocks[worst.0].origin, worst.1);
+        Err(Stopped { step: self.step, cell, what: Runaway::Ledger { residual, bound }, tau: f64::NAN })
     }
-    pub fn hash_rest(&self, _h: &mut Hasher) {}
 }

@@ -16,11 +16,11 @@ use crate::boundary::links::Links;
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
+use crate::solver::books::Books;
 use crate::solver::initial::{self, REST};
 use crate::solver::physics::Physics;
 use crate::solver::run::{Load, Run, StartError, Stopped};
 use crate::solver::setup::{FlowPoint, FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
-use balance::Books;
 
 /// A free-surface flow being stepped with one kind of physics.
 pub struct SurfaceRun<P> {
@@ -43,7 +43,9 @@ pub struct SurfaceRun<P> {
     velocity: Vec<[f64; 3]>,
     /// Smoothed acceleration; only for the rule with inertia.
     acceleration: Vec<[f64; 3]>,
-    /// What each interface cell touches, as bits of [`passes::touch`].
+    /// u of the collision before; only for the rule with inertia.
+    velocity_before: Vec<[f64; 3]>,
+    /// What each interface cell touches, as bits of [`crate::solver::conversion::touch`].
     touches: Vec<u8>,
     /// ω⁺ of the previous step; only for the lagged treatment.
     previous_omega: Vec<f64>,
@@ -106,6 +108,7 @@ impl<P: Physics> SurfaceRun<P> {
             fill,
             velocity: vec![[0.0; 3]; cells],
             acceleration: Vec::new(),
+            velocity_before: Vec::new(),
             touches: vec![0; cells],
             previous_omega: Vec::new(),
             corrections: Vec::new(),

@@ -6,8 +6,10 @@ use super::SurfaceRun;
 use crate::boundary::links::{CellKind, Source};
 use crate::free_surface::Kind;
 use crate::free_surface::force::{interface_force, smooth};
+use crate::free_surface::ledger::VectorSum;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, opposite};
+use crate::solver::conversion::{mirrored, touch};
 use crate::solver::physics::Physics;
 use crate::solver::plain::cell::{self, Cell};
 use crate::solver::run::Stopped;
@@ -15,16 +17,6 @@ use crate::solver::setup::SurfaceForce;
 
 /// Cells per chunk of work.
 pub const CHUNK: usize = 4096;
-
-/// Bits of [`SurfaceRun::touches`].
-pub mod touch {
-    /// A gas neighbour.
-    pub const GAS: u8 = 1;
-    /// A liquid neighbour.
-    pub const LIQUID: u8 = 2;
-    /// A wall or solid.
-    pub const WALL: u8 = 4;
-}
 
 /// Chunks of an array that may be empty.
 fn chunks<T>(all: &mut [T], count: usize) -> Vec<&mut [T]> {
@@ -84,8 +76,7 @@ impl<P: Physics> SurfaceRun<P> {
             if self.kinds[from] == Kind::Liquid {
                 count += 1;
                 for (a, part) in parts.iter_mut().enumerate() {
-                    part[i] =
-                        super::convert::mirrored(i, usize::from(direction), a) * self.acceleration[from][a];
+                    part[i] = mirrored(i, usize::from(direction), a) * self.acceleration[from][a];
                 }
             }
         }
@@ -145,7 +136,7 @@ impl<P: Physics> SurfaceRun<P> {
         }
         let mut failed = None;
         for (brought, found) in results {
-            self.books.from_force.add(&brought);
+            self.books.from_force.merge(&brought);
             failed = failed.or(found);
         }
         failed.map_or(Ok(()), Err)
@@ -153,10 +144,10 @@ impl<P: Physics> SurfaceRun<P> {
 
     /// Smoothed acceleration of every fluid cell, from the velocities of this and the last collision.
     fn accelerations(&self, velocity: &[[f64; 3]]) -> Option<Vec<[f64; 3]>> {
-        if self.acceleration.is_empty() || self.books.velocity_before.is_empty() {
+        if self.acceleration.is_empty() || self.velocity_before.is_empty() {
             return None;
         }
-        let before = &self.books.velocity_before;
+        let before = &self.velocity_before;
         let each = |cell: usize| {
             if !self.kinds[cell].is_fluid() {
                 return [0.0; 3];
@@ -169,9 +160,9 @@ impl<P: Physics> SurfaceRun<P> {
 
     /// Returns what the force brought in and the first cell that fails the guard.
     #[inline(never)]
-    fn collide_chunk(&self, chunk: CollideChunk, force: &[f64; 3]) -> ([f64; 3], Option<Stopped>) {
+    fn collide_chunk(&self, chunk: CollideChunk, force: &[f64; 3]) -> (VectorSum, Option<Stopped>) {
         let mut failed = None;
-        let mut brought = crate::free_surface::ledger::VectorSum::default();
+        let mut brought = VectorSum::default();
         for (k, out) in chunk.post.iter_mut().enumerate() {
             let at = chunk.start + k;
             if !self.kinds[at].is_fluid() {
@@ -198,7 +189,7 @@ impl<P: Physics> SurfaceRun<P> {
                 cell::add_stress_source(&self.physics, out, &state, &residual);
             }
         }
-        (brought.value(), failed)
+        (brought, failed)
     }
 
     /// Streams every fluid cell and moves mass between interface cells \[F1\] \[F2\].

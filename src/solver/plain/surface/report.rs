@@ -85,8 +85,11 @@ impl<P: Physics> Run for SurfaceRun<P> {
             hasher.number(f64::from(*cell));
             hasher.number(*mass);
         }
-        for a in self.acceleration.iter().flatten().chain(&self.previous_omega) {
-            hasher.number(*a);
+        for cell in self.fluid_in_order() {
+            let acceleration = self.acceleration.get(cell).into_iter().flatten();
+            for a in acceleration.chain(self.previous_omega.get(cell)) {
+                hasher.number(*a);
+            }
         }
         let totals = self.totals();
         Fingerprint {
@@ -113,7 +116,7 @@ impl<P: Physics> Run for SurfaceRun<P> {
     fn allocated_bytes(&self) -> u64 {
         let populations =
             (self.f.len() + self.post.len() + self.before.len() + self.corrections.len()) * size_of::<Cell>();
-        let vectors = (self.velocity.len() + self.acceleration.len() + self.books.velocity_before.len())
+        let vectors = (self.velocity.len() + self.acceleration.len() + self.velocity_before.len())
             * size_of::<[f64; 3]>();
         let numbers =
             (self.mass.len() + self.fill.len() + self.previous_omega.len() + self.surface.fill.len())

@@ -1,0 +1,243 @@
+//! The ledger of mass and momentum \[F5\] and the loads on solids \[C7\], for any backend.
+
+use crate::boundary::links::Source;
+use crate::free_surface::ledger::{Sum, VectorSum};
+use crate::lattice::C;
+use crate::solver::run::{Ledger, Load};
+
+/// Everything that was brought in or taken out so far.
+#[derive(Clone, Debug, Default)]
+pub struct Books {
+    /// Mass at step 0.
+    pub initial_mass: f64,
+    /// Mass at the end of the last step, less what came from outside.
+    pub mass: f64,
+    /// Σ c f at step 0.
+    pub initial_momentum: [f64; 3],
+    /// Mass that left through open faces.
+    pub outflow: Sum,
+    /// Mass that came in at walls.
+    pub from_walls: Sum,
+    /// Momentum by origin.
+    pub from_force: VectorSum,
+    /// Walls and mirror planes of the box.
+    pub from_faces: VectorSum,
+    /// Solids.
+    pub from_solids: VectorSum,
+    /// Gas links and open faces.
+    pub from_gas: VectorSum,
+    /// Cells that became fluid, less those that became gas.
+    pub from_conversions: VectorSum,
+    /// Cells that changed kind.
+    pub conversions: u64,
+}
+
+/// Roundings per fluid cell and step that the ledger may collect: collision and streaming each lose at
+/// most a few units in the last place of numbers well below 1.
+const ROUNDINGS: f64 = 32.0;
+
+/// What one step brought in over links: entries of many cells, to be added to the [`Books`] in any order.
+#[derive(Clone, Debug, Default)]
+pub struct Entries {
+    /// Mass that left through open faces.
+    pub outflow: Sum,
+    /// Mass that came in at walls.
+    pub from_walls: Sum,
+    /// As in [`Books`].
+    pub from_faces: VectorSum,
+    /// As in [`Books`].
+    pub from_solids: VectorSum,
+    /// As in [`Books`].
+    pub from_gas: VectorSum,
+    /// Force and wetted area by solid.
+    pub loads: Vec<(VectorSum, [[Sum; 2]; 3])>,
+}
+
+/// The two ends of a link at a cell.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing {
+    /// Arriving direction.
+    pub i: usize,
+    /// f_ī* that left.
+    pub leaving: f64,
+    /// f_i that arrived.
+    pub arrived: f64,
+    /// Share of the cell that is wet: 1 in liquid, φ in interface.
+    pub share: f64,
+    /// Whether the cell is liquid.
+    pub liquid: bool,
+}
+
+/// What the links of one cell brought in, added up in the order of the directions.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CellEntries {
+    outflow: f64,
+    from_walls: f64,
+    from_faces: [f64; 3],
+    from_solids: [f64; 3],
+    from_gas: [f64; 3],
+    touched: bool,
+}
+
+impl CellEntries {
+    /// Books one link. `gas`: whether the cell at the other end holds no fluid.
+    #[inline]
+    pub fn link(&mut self, crossing: &Crossing, source: &Source, gas: bool, entries: &mut Entries) {
+        let Crossing { i, leaving, arrived, share, liquid } = *crossing;
+        // Arrives with c_i f_i, left with −c_i f_ī.
+        let brought = C[i].map(|c| f64::from(c) * (arrived + leaving));
+        match *source {
+            Source::Cell { direction, .. } => {
+                if gas {
+                    add(&mut self.from_gas, &brought);
+                } else if usize::from(direction) != i {
+                    // A mirror plane turns momentum round.
+                    let turned = C[usize::from(direction)];
+                    add(
+                        &mut self.from_faces,
+                        &std::array::from_fn(|a| f64::from(C[i][a] - turned[a]) * arrived),
+                    );
+                } else {
+                    return;
+                }
+            }
+            Source::Open => {
+                add(&mut self.from_gas, &brought);
+                self.outflow += share * (leaving - arrived);
+            }
+            Source::Wall { body, .. } => {
+                if liquid {
+                    self.from_walls += arrived - leaving;
+                }
+                if body == 0 {
+                    add(&mut self.from_faces, &brought);
+                } else {
+                    add(&mut self.from_solids, &brought);
+                    if let Some(load) = entries.loads.get_mut(usize::from(body) - 1) {
+                        add_load(load, &brought, i, share);
+                    }
+                }
+            }
+        }
+        self.touched = true;
+    }
+
+    /// Hands the sums of the cell over.
+    #[inline]
+    pub fn close(&self, entries: &mut Entries) {
+        if self.touched {
+            entries.outflow.add(self.outflow);
+            entries.from_walls.add(self.from_walls);
+            entries.from_faces.add(&self.from_faces);
+            entries.from_solids.add(&self.from_solids);
+            entries.from_gas.add(&self.from_gas);
+        }
+    }
+}
+
+#[inline(always)]
+fn add(sum: &mut [f64; 3], term: &[f64; 3]) {
+    for a in 0..3 {
+        sum[a] += term[a];
+    }
+}
+
+/// Adds one link to a load: the solid gets what the fluid loses.
+fn add_load(load: &mut (VectorSum, [[Sum; 2]; 3]), brought: &[f64; 3], i: usize, share: f64) {
+    load.0.add(&brought.map(|p| -p));
+    // The wall lies along −c_i; axis links are the cell faces.
+    let length: i32 = C[i].iter().map(|c| c * c).sum();
+    if length == 1 {
+        let axis = C[i].iter().position(|&c| c != 0).unwrap_or(0);
+        load.1[axis][usize::from(C[i][axis] > 0)].add(share);
+    }
+}
+
+impl Entries {
+    /// None yet, for this number of recorded solids.
+    #[must_use]
+    pub fn new(solids: usize) -> Self {
+        Self { loads: vec![Default::default(); solids], ..Self::default() }
+    }
+
+    /// Adds the entries of other cells.
+    pub fn merge(&mut self, other: &Self) {
+        self.outflow.merge(&other.outflow);
+        self.from_walls.merge(&other.from_walls);
+        self.from_faces.merge(&other.from_faces);
+        self.from_solids.merge(&other.from_solids);
+        self.from_gas.merge(&other.from_gas);
+        for (own, other) in self.loads.iter_mut().zip(&other.loads) {
+            own.0.merge(&other.0);
+            for axis in 0..3 {
+                for side in 0..2 {
+                    own.1[axis][side].merge(&other.1[axis][side]);
+                }
+            }
+        }
+    }
+}
+
+impl Books {
+    /// Books the entries of a step and brings the loads up to date.
+    pub fn enter(&mut self, entries: &Entries, loads: &mut [Load]) {
+        self.outflow.merge(&entries.outflow);
+        self.from_walls.merge(&entries.from_walls);
+        self.from_faces.merge(&entries.from_faces);
+        self.from_solids.merge(&entries.from_solids);
+        self.from_gas.merge(&entries.from_gas);
+        for (load, (force, wetted)) in loads.iter_mut().zip(&entries.loads) {
+            load.force = force.value();
+            load.wetted = wetted.map(|sides| sides.map(|sum| sum.value()));
+            for a in 0..3 {
+                load.impulse[a] += load.force[a];
+            }
+        }
+    }
+
+    /// Mass gained or lost since the last closing, and the bound of rounding; `None` if within it.
+    pub fn close(&mut self, mass: f64, fluid_cells: u64) -> Option<(f64, f64)> {
+        let external = self.from_walls.value() - self.outflow.value();
+        let before = self.mass;
+        self.mass = mass - external;
+        let residual = (mass - external - before).abs();
+        let bound = ROUNDINGS * f64::EPSILON * (fluid_cells as f64 + self.initial_mass);
+        if residual <= bound { None } else { Some((residual / self.initial_mass, bound)) }
+    }
+
+    /// The ledger from the sums now.
+    #[must_use]
+    pub fn ledger(&self, mass: f64, momentum: [f64; 3], parked: f64, cells: [u64; 2]) -> Ledger {
+        let (outflow, from_walls) = (self.outflow.value(), self.from_walls.value());
+        let parts =
+            [self.from_force, self.from_faces, self.from_solids, self.from_gas, self.from_conversions]
+                .map(|sum| sum.value());
+        let mut worst = 0.0_f64;
+        for a in 0..3 {
+            let mut sum = Sum::default();
+            sum.add(momentum[a] - self.initial_momentum[a]);
+            for part in &parts {
+                sum.add(-part[a]);
+            }
+            worst = if sum.value().abs() > worst { sum.value().abs() } else { worst };
+        }
+        Ledger {
+            initial_mass: self.initial_mass,
+            mass,
+            parked,
+            outflow,
+            from_walls,
+            mass_residual: (((mass - self.initial_mass) + outflow) - from_walls) / self.initial_mass,
+            momentum,
+            from_force: parts[0],
+            from_faces: parts[1],
+            from_solids: parts[2],
+            from_gas: parts[3],
+            from_conversions: parts[4],
+            momentum_residual: worst,
+            liquid_cells: cells[0],
+            interface_cells: cells[1],
+            conversions: self.conversions,
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! Streaming and mass exchange of interface cells \[F1\] \[F2\], and what the links bring in \[F5\].
+
+use super::{InterfaceCell, Surface};
+use crate::boundary::links::Source;
+use crate::free_surface::Kind;
+use crate::free_surface::ledger::VectorSum;
+use crate::lattice::moments::density_excess;
+use crate::lattice::{Q, opposite};
+use crate::solver::books::{CellEntries, Crossing, Entries};
+use crate::solver::conversion::touch;
+use crate::solver::fast::block::{Block, From, Link, numbers_around};
+use crate::solver::fast::kernel::{Task, index};
+use crate::solver::fast::layout::NONE;
+use crate::solver::fast::run::{FastRun, each};
+use crate::solver::fast::stage::{after, open_link, wall_link};
+use crate::solver::physics::Physics;
+
+/// What a block brought in.
+struct Brought {
+    entries: Entries,
+    force: VectorSum,
+}
+
+/// A block while its interface cells stream.
+struct Streaming<'a, P> {
+    task: &'a Task<'a, P, f64>,
+    surface: &'a Surface,
+    rim: &'a [super::super::rim::Rim],
+    block: &'a Block,
+    number: usize,
+    /// Block numbers around it.
+    around: [u32; 27],
+}
+
+impl<P: Physics> FastRun<P> {
+    /// Streams interface cells and books all links that bring something in.
+    pub(super) fn exchange(&mut self, force: &[f64; 3]) {
+        let Some(surface) = &mut self.surface else { return };
+        let mut interface = std::mem::take(&mut surface.interface);
+        let solids = surface.loads.len();
+        let task = self.task(*force);
+        let Some(surface) = &self.surface else { return };
+        let items: Vec<_> = interface.iter_mut().enumerate().collect();
+        let brought = each(self.pool.as_ref(), items, |(number, list)| {
+            let mut brought = Brought { entries: Entries::new(solids), force: VectorSum::default() };
+            let block = &self.blocks[number];
+            if self.old[number].is_empty() || (list.is_empty() && block.links.is_empty()) {
+                return brought;
+            }
+            let around = numbers_around(&self.layout, block.place);
+            let rim = &self.rim[number];
+            let streaming = Streaming { task: &task, surface, rim, block, number, around };
+            for cell in list.iter_mut() {
+                let local = usize::from(cell.local);
+                brought.force.add(&surface.view().force_of(number, local, force));
+                streaming.stream(cell, &mut brought.entries);
+            }
+            streaming.book_liquid(&mut brought.entries);
+            brought
+        });
+        let Some(surface) = &mut self.surface else { return };
+        surface.interface = interface;
+        let mut entries = Entries::new(solids);
+        for part in &brought {
+            entries.merge(&part.entries);
+            surface.books.from_force.merge(&part.force);
+        }
+        surface.books.from_force.add_times(force, surface.counts[0]);
+        surface.books.enter(&entries, &mut surface.loads);
+    }
+}
+
+impl<P: Physics> Streaming<'_, P> {
+    /// Populations, Δm and neighbours of an interface cell.
+    fn stream(&self, cell: &mut InterfaceCell, entries: &mut Entries) {
+        let local = usize::from(cell.local);
+        let physics = self.task.physics;
+        let own = after(self.task, self.number, local);
+        let rho = 1.0 + density_excess(&own);
+        let fill = self.surface.fill[self.number][local];
+        let mut links = self.block.links_of_cell(local, super::LINE).iter().peekable();
+        let mut arrived = own;
+        let mut gained = [0.0; Q];
+        let mut touches = 0;
+        let mut booked = CellEntries::default();
+        for i in 1..Q {
+            let out = opposite(i);
+            let link = links.next_if(|link| usize::from(link.direction) == i);
+            let mut gas = false;
+            let source = match self.end(local, i, link) {
+                End::Wall { velocity, body, link } => {
+                    touches |= touch::WALL;
+                    let u = &self.task.velocities[velocity as usize];
+                    arrived[i] = wall_link(self.task, self.number, self.rim, link, rho, u);
+                    Source::Wall { velocity: *u, body }
+                }
+                End::Open(link) => {
+                    arrived[i] = open_link(self.task, self.number, self.rim, link);
+                    gained[i] = fill * (arrived[i] - own[out]);
+                    Source::Open
+                }
+                End::Cell { number, local, direction } => {
+                    let kind = match number {
+                        NONE => Kind::Gas,
+                        number => self.surface.kinds[number as usize][local],
+                    };
+                    gas = !kind.is_fluid();
+                    if gas {
+                        touches |= touch::GAS;
+                        arrived[i] = physics.gas_link(own[out], out, &cell.velocity, || own[out]);
+                    } else {
+                        if kind == Kind::Liquid {
+                            touches |= touch::LIQUID;
+                        }
+                        let number = number as usize;
+                        arrived[i] = self.task.old[number].get()[index::<f64>(local, direction)];
+                        let other = self.surface.fill[number][local];
+                        let share = physics.wetted_share(kind, fill, other, || [0.0; 2]);
+                        gained[i] = physics.link_mass(share, arrived[i], own[out], || [0.0; 2]);
+                    }
+                    Source::Cell { cell: 0, direction: direction as u8 }
+                }
+            };
+            let crossing = Crossing { i, leaving: own[out], arrived: arrived[i], share: fill, liquid: false };
+            booked.link(&crossing, &source, gas, entries);
+        }
+        booked.close(entries);
+        cell.f = arrived;
+        cell.rho = 1.0 + density_excess(&arrived);
+        cell.mass += density_excess(&gained);
+        cell.touches = touches;
+    }
+
+    /// The other end of the link that population `i` arrives through.
+    #[inline]
+    fn end<'l>(&self, local: usize, i: usize, link: Option<&'l Link>) -> End<'l> {
+        let Some(link) = link else {
+            let (entry, from) = self.task.layout.upstream(local, i);
+            return End::Cell { number: self.around[entry], local: from, direction: i };
+        };
+        match link.from {
+            From::Cell { cell, direction } => End::Cell {
+                number: self.task.layout.block_at(cell.block as usize),
+                local: cell.local as usize,
+                direction: usize::from(direction),
+            },
+            From::Wall { velocity, body } => End::Wall { velocity, body, link },
+            From::Open => End::Open(link),
+        }
+    }
+
+    /// Books the irregular links of liquid cells.
+    fn book_liquid(&self, entries: &mut Entries) {
+        let mut links = self.block.links.as_slice();
+        while let Some(first) = links.first() {
+            let same = links.iter().take_while(|link| link.local == first.local).count();
+            let (cell, rest) = links.split_at(same);
+            links = rest;
+            let local = usize::from(first.local);
+            if self.surface.kinds[self.number][local] == Kind::Liquid {
+                self.book_cell(local, cell, entries);
+            }
+        }
+    }
+
+    fn book_cell(&self, local: usize, links: &[Link], entries: &mut Entries) {
+        let own = after(self.task, self.number, local);
+        let rho = 1.0 + density_excess(&own);
+        let mut booked = CellEntries::default();
+        for link in links {
+            let i = usize::from(link.direction);
+            let (arrived, source) = match self.end(local, i, Some(link)) {
+                End::Wall { velocity, body, link } => {
+                    let u = &self.task.velocities[velocity as usize];
+                    let arrived = wall_link(self.task, self.number, self.rim, link, rho, u);
+                    (arrived, Source::Wall { velocity: *u, body })
+                }
+                End::Open(link) => (open_link(self.task, self.number, self.rim, link), Source::Open),
+                // A liquid cell touches no gas.
+                End::Cell { direction, .. } if direction == i => continue,
+                End::Cell { number, local, direction } => {
+                    let arrived = self.task.old[number as usize].get()[index::<f64>(local, direction)];
+                    (arrived, Source::Cell { cell: 0, direction: direction as u8 })
+                }
+            };
+            let leaving = own[opposite(i)];
+            let crossing = Crossing { i, leaving, arrived, share: 1.0, liquid: true };
+            booked.link(&crossing, &source, false, entries);
+        }
+        booked.close(entries);
+    }
+}
+
+/// The other end of a link.
+enum End<'l> {
+    Cell { number: u32, local: usize, direction: usize },
+    Wall { velocity: u32, body: u8, link: &'l Link },
+    Open(&'l Link),
+}

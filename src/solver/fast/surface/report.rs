@@ -1,0 +1,123 @@
+//! Sums and fields of a run with a free surface.
+
+use super::Surface;
+use crate::free_surface::Kind;
+use crate::free_surface::ledger::{Sum, VectorSum};
+use crate::lattice::moments::{Moments, density_excess, momentum};
+use crate::solver::fast::run::FastRun;
+use crate::solver::fingerprint::Hasher;
+use crate::solver::physics::Physics;
+use crate::solver::run::{Fields, Ledger};
+
+impl Surface {
+    /// Fill and kind of every cell of the box.
+    pub fn start_fields<P: Physics>(&self, run: &FastRun<P>, fields: &mut Fields) {
+        let cells = run.setup.cells();
+        fields.fill = vec![0.0; cells];
+        let kind = |cell: usize| if run.setup.is_solid(cell) { Kind::Solid } else { Kind::Gas } as u8;
+        fields.kind = (0..cells).map(kind).collect();
+        for (cell, number, local) in run.in_order() {
+            fields.kind[cell] = self.kinds[number][local] as u8;
+        }
+    }
+
+    /// φ of a fluid cell of density `rho`, as it is.
+    #[must_use]
+    pub fn fill_of(&self, number: usize, local: usize, rho: f64) -> f64 {
+        match self.kinds[number][local] {
+            Kind::Liquid => 1.0,
+            _ => self.mass(number, local) / rho,
+        }
+    }
+
+    fn mass(&self, number: usize, local: usize) -> f64 {
+        match self.kinds[number][local] {
+            Kind::Interface => self.record(number, local).map_or(0.0, |record| record.mass),
+            _ => 0.0,
+        }
+    }
+
+    /// Mass of a fluid cell, as an excess over 1 in liquid, and whole.
+    #[must_use]
+    pub fn mass_of(&self, number: usize, local: usize, m: &Moments<f64>) -> (f64, f64) {
+        match self.kinds[number][local] {
+            Kind::Liquid => (m.d_rho, m.rho),
+            _ => (self.mass(number, local), self.mass(number, local)),
+        }
+    }
+
+    /// Number, kind and mass of a cell.
+    pub fn hash_cell(&self, hasher: &mut Hasher, cell: usize, number: usize, local: usize) {
+        hasher.number(cell as f64);
+        hasher.number(f64::from(self.kinds[number][local] as u8));
+        hasher.number(self.mass(number, local));
+    }
+
+    /// Cells with fluid.
+    #[must_use]
+    pub fn fluid_cells(&self) -> u64 {
+        self.counts[0] + self.counts[1]
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        let kinds: usize = self.kinds.iter().map(Vec::len).sum();
+        let fill: usize = self.fill.iter().map(|fill| size_of_val(fill.as_slice())).sum();
+        let lanes: usize = self.lanes.iter().map(|lanes| size_of_val(lanes.as_slice())).sum();
+        let records: usize =
+            self.interface.iter().map(|list| list.capacity() * size_of::<super::InterfaceCell>()).sum();
+        (kinds + fill + lanes + records) as u64
+    }
+}
+
+impl<P: Physics> FastRun<P> {
+    pub(super) fn open_books(&mut self) {
+        let (mass, momentum) = self.mass_and_momentum();
+        if let Some(surface) = &mut self.surface {
+            surface.books.initial_mass = mass;
+            surface.books.mass = mass;
+            surface.books.initial_momentum = momentum;
+        }
+    }
+
+    /// Liquid ρ + interface m + parked, and Σ c f.
+    fn mass_and_momentum(&self) -> (f64, [f64; 3]) {
+        let (mut mass, mut total) = (Sum::default(), VectorSum::default());
+        let Some(surface) = &self.surface else { return (0.0, [0.0; 3]) };
+        for (number, kinds) in surface.kinds.iter().enumerate() {
+            for (local, kind) in kinds.iter().enumerate().filter(|(_, kind)| kind.is_fluid()) {
+                let f = self.arrived(number, local);
+                if *kind == Kind::Liquid {
+                    mass.add(1.0);
+                    mass.add(density_excess(&f));
+                } else {
+                    mass.add(surface.mass(number, local));
+                }
+                total.add(&momentum(&f));
+            }
+        }
+        for parked in surface.parked.values() {
+            mass.add(*parked);
+        }
+        (mass.value(), total.value())
+    }
+
+    pub(in crate::solver::fast) fn make_ledger(&self) -> Option<Ledger> {
+        let surface = self.surface.as_ref()?;
+        let (mass, momentum) = self.mass_and_momentum();
+        Some(surface.books.ledger(mass, momentum, surface.parked.values().sum(), surface.counts))
+    }
+
+    pub(in crate::solver::fast) fn hash_rest(&self, hasher: &mut Hasher) {
+        for (cell, mass) in self.surface.iter().flat_map(|surface| &surface.parked) {
+            hasher.number(f64::from(*cell));
+            hasher.number(*mass);
+        }
+        for (_, number, local) in self.in_order() {
+            if let Some(omega) = self.lag[number].get(local) {
+                hasher.number(*omega);
+            }
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! How a run with a free surface begins.
+
+use super::{Lanes, Surface};
+use crate::boundary::links::{Source, resolve};
+use crate::free_surface::{Kind, classify, hydrostatic};
+use crate::lattice::Q;
+use crate::lattice::moments::density_excess;
+use crate::solver::books::Books;
+use crate::solver::fast::kernel::index;
+use crate::solver::fast::run::FastRun;
+use crate::solver::fast::surface::InterfaceCell;
+use crate::solver::initial::{self, REST};
+use crate::solver::physics::Physics;
+use crate::solver::plain::starting_omega;
+use crate::solver::run::{Load, StartError};
+use crate::solver::setup::{FlowPoint, SurfaceForce};
+
+impl<P: Physics> FastRun<P> {
+    /// Blocks, populations, masses and the ledger.
+    ///
+    /// # Errors
+    /// The setup asks for what this backend does not have.
+    pub(in crate::solver::fast) fn start_surface(&mut self) -> Result<(), StartError> {
+        let unsupported = |feature| StartError::Unsupported { backend: "fast", feature };
+        let Some(mut rules) = self.setup.free_surface.take() else { return Ok(()) };
+        if self.setup.fluids.len() > 1 {
+            return Err(unsupported("several fluids below a free surface"));
+        }
+        if rules.force == SurfaceForce::ByFillAndInertia {
+            return Err(unsupported("the surface force with inertia"));
+        }
+        // The initial fill is as large as the box; it is not kept.
+        let fill = std::mem::replace(&mut rules.fill, std::sync::Arc::new([]));
+        let setup = &self.setup;
+        let kinds = classify(&fill, |cell| setup.is_solid(cell), |cell| neighbours(setup, cell));
+        let own_fill = |cell: usize| match kinds[cell] {
+            Kind::Liquid => 1.0,
+            Kind::Interface => fill[cell],
+            Kind::Gas | Kind::Solid => 0.0,
+        };
+        let force = setup.force.at(0);
+        let excess = match setup.initial {
+            Some(_) => Vec::new(),
+            None => {
+                let fill: Vec<f64> = (0..kinds.len()).map(own_fill).collect();
+                hydrostatic::density_excess(setup.extents, &kinds, &fill, &force)
+            }
+        };
+        let mut wet = vec![false; self.layout.places()];
+        for (cell, kind) in kinds.iter().enumerate() {
+            if kind.is_fluid() {
+                wet[self.layout.find(setup.coordinates(cell)).0] = true;
+            }
+        }
+        let loads = if setup.loads { setup.solid_motion.len() } else { 0 };
+        self.surface = Some(Surface {
+            kinds: Vec::new(),
+            fill: Vec::new(),
+            lanes: Vec::new(),
+            interface: Vec::new(),
+            parked: Default::default(),
+            books: Books::default(),
+            loads: vec![Load::default(); loads],
+            counts: [0; 2],
+            free: Vec::new(),
+            open: false,
+            rules: rules.clone(),
+        });
+        self.setup.free_surface = Some(rules);
+        for place in (0..wet.len()).filter(|&place| wet[place]) {
+            if let Some(number) = self.add_surface_block(place) {
+                self.fill_block(number, &kinds, &own_fill, &excess, &force);
+            }
+        }
+        self.open_books();
+        Ok(())
+    }
+
+    /// Makes a block of gas and solid cells; returns its number.
+    pub(super) fn add_surface_block(&mut self, place: usize) -> Option<usize> {
+        let number = self.add_block(place)?;
+        let cells = self.layout.block_cells();
+        let kinds = (0..cells).map(|local| {
+            let usable = self.blocks[number].is_usable(local);
+            if usable { Kind::Gas } else { Kind::Solid }
+        });
+        let kinds = kinds.collect();
+        let surface = self.surface.as_mut()?;
+        put(&mut surface.kinds, number, kinds);
+        put(&mut surface.fill, number, vec![0.0; cells]);
+        put(&mut surface.lanes, number, vec![Lanes::default(); cells / super::LINE]);
+        put(&mut surface.interface, number, Vec::new());
+        Some(number)
+    }
+
+    fn fill_block(
+        &mut self,
+        number: usize,
+        kinds: &[Kind],
+        fill: &impl Fn(usize) -> f64,
+        excess: &[f64],
+        force: &[f64; 3],
+    ) {
+        let (setup, layout) = (&self.setup, &self.layout);
+        let Some(surface) = &mut self.surface else { return };
+        for local in 0..layout.block_cells() {
+            if !self.blocks[number].is_usable(local) {
+                continue;
+            }
+            let at = layout.cell(self.blocks[number].origin, local);
+            let cell = setup.index(at);
+            if let Some(omega) = self.lag[number].get_mut(local) {
+                *omega = starting_omega(setup, cell);
+            }
+            if !kinds[cell].is_fluid() {
+                continue;
+            }
+            surface.kinds[number][local] = kinds[cell];
+            surface.fill[number][local] = fill(cell);
+            let point = match &setup.initial {
+                Some(flow) => flow(at),
+                None => FlowPoint { density: 1.0 + excess[cell], ..REST },
+            };
+            let here = surface.force_at(number, local, force).unwrap_or(*force);
+            let f = initial::start(&point, &setup.law(cell), &here);
+            for (i, f) in f.iter().enumerate() {
+                self.old[number].get_mut()[index::<f64>(local, i)] = *f;
+            }
+            surface.counts[usize::from(kinds[cell] == Kind::Interface)] += 1;
+            if kinds[cell] == Kind::Interface {
+                let rho = 1.0 + density_excess(&f);
+                let mass = fill(cell) * rho;
+                let velocity = point.velocity;
+                let local = local as u16;
+                surface.interface[number].push(InterfaceCell { local, touches: 0, f, rho, velocity, mass });
+            }
+        }
+        surface.list_lanes(number);
+    }
+}
+
+/// Puts a value at a number, which is at most one beyond the end.
+pub(in crate::solver::fast) fn put<T>(list: &mut Vec<T>, number: usize, value: T) {
+    match list.get_mut(number) {
+        Some(place) => *place = value,
+        None => list.push(value),
+    }
+}
+
+/// The cells that the links of a cell lead to.
+fn neighbours(setup: &crate::solver::setup::Setup, cell: usize) -> Vec<usize> {
+    let at = setup.coordinates(cell);
+    let through = |i| match resolve(setup, at, i).0 {
+        Source::Cell { cell, .. } => Some(cell as usize),
+        Source::Wall { .. } | Source::Open => None,
+    };
+    (1..Q).filter_map(through).collect()
+}
