@@ -11,6 +11,7 @@ use lahar::plan::{Layout, Plan, PlanError};
 use lahar::report::{self, ReportError, ReportOutcome};
 use lahar::run_scene::{self, Options, RunError};
 use lahar::scene::{self, Scene, SceneError, SceneProblem};
+use lahar::solver::choose::{Best, only_plain};
 use lahar::solver::plain::Plain;
 use lahar::solver::run::Backend;
 
@@ -40,7 +41,7 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
         /// Solver.
-        #[arg(long, value_enum, default_value = "plain")]
+        #[arg(long, value_enum, default_value = "fast")]
         backend: BackendName,
         /// Worker threads; results do not depend on it [default: all].
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -60,7 +61,7 @@ enum Command {
         #[arg(long)]
         json: bool,
         /// Solver whose memory is counted.
-        #[arg(long, value_enum, default_value = "plain")]
+        #[arg(long, value_enum, default_value = "fast")]
         backend: BackendName,
     },
     /// Measure this machine: bandwidth, speed of a fixed list of flows, shares of the ceiling.
@@ -90,6 +91,8 @@ enum Command {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum BackendName {
+    /// Packs, blocks, threads.
+    Fast,
     /// Scalar reference solver.
     Plain,
 }
@@ -97,6 +100,7 @@ enum BackendName {
 impl BackendName {
     fn backend(self) -> &'static dyn Backend {
         match self {
+            Self::Fast => &Best,
             Self::Plain => &Plain,
         }
     }
@@ -201,6 +205,9 @@ fn run(
             "{}: {nx} × {ny} × {nz} cells, {} steps of {:.4e} s ({sentence})",
             n.title, n.steps, n.time_step_s
         );
+        if let (BackendName::Fast, Some(what)) = (backend, only_plain(&plan.setup)) {
+            eprintln!("note: {what} is run by the plain backend");
+        }
         for warning in &n.warnings {
             eprintln!("warning: {warning}");
         }

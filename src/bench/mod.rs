@@ -24,6 +24,7 @@ pub use measure::{CaseSpeed, Ratio};
 pub use statistics::Spread;
 
 use crate::plan::available_memory;
+use crate::solver::choose::Best;
 use crate::solver::plain::Plain;
 use crate::solver::run::Backend;
 use bandwidth::{BYTES_PER_UPDATE, Speed};
@@ -31,8 +32,8 @@ use cases::{GROUPS, Scale};
 
 /// Every backend, the plain one first.
 #[must_use]
-pub fn backends() -> [&'static dyn Backend; 1] {
-    [&Plain]
+pub fn backends() -> [&'static dyn Backend; 2] {
+    [&Plain, &Best]
 }
 
 /// What to measure, and how long.

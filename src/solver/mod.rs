@@ -2,6 +2,7 @@
 
 pub mod books;
 pub mod check;
+pub mod choose;
 pub mod conversion;
 pub mod fast;
 pub mod fingerprint;

@@ -89,6 +89,10 @@ pub fn block_len(layout: &Layout) -> usize {
 pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<R::Element>) -> Outcome {
     let mut outcome = Outcome::default();
     let block = &task.blocks[own.number];
+    // Blocks that ran dry hold nothing.
+    if task.old[own.number].is_empty() {
+        return outcome;
+    }
     let line = R::Element::PER_LINE;
     let around = Around::new(task, own.number);
     let sources = task.sources;

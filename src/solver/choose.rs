@@ -1,0 +1,36 @@
+//! Which backend runs what.
+
+use super::fast::Fast;
+use super::plain::Plain;
+use super::run::{Backend, Run, StartError};
+use super::setup::{Setup, SurfaceForce};
+
+/// The fast backend, and the plain one for what only that has ([`only_plain`]): the bits are the same.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Best;
+
+impl Backend for Best {
+    fn name(&self) -> &'static str {
+        "fast"
+    }
+
+    fn start(&self, setup: &Setup) -> Result<Box<dyn Run>, StartError> {
+        match only_plain(setup) {
+            None => Fast::default().start(setup),
+            Some(_) => Plain.start(setup),
+        }
+    }
+}
+
+/// What a setup asks for that only the plain backend has, if anything.
+#[must_use]
+pub fn only_plain(setup: &Setup) -> Option<&'static str> {
+    let inertia = |surface: &super::setup::FreeSurface| surface.force == SurfaceForce::ByFillAndInertia;
+    if setup.stress_source {
+        Some("the experimental source in the third moments")
+    } else if setup.free_surface.as_ref().is_some_and(inertia) {
+        Some("the surface force with inertia")
+    } else {
+        None
+    }
+}
