@@ -4,6 +4,8 @@ use serde::Serialize;
 
 use crate::boundary::links::BoundaryCell;
 use crate::scene::{Scene, SurfaceGravity, YieldChoice};
+use crate::solver::fast::layout::Layout as Blocks;
+use crate::solver::fast::memory as fast;
 use crate::solver::setup::{Face, Setup, SurfaceForce, WallRule, YieldTreatment};
 
 /// How a backend lays cells out in memory.
@@ -11,9 +13,9 @@ use crate::solver::setup::{Face, Setup, SurfaceForce, WallRule, YieldTreatment};
 #[serde(rename_all = "snake_case")]
 pub enum Layout {
     /// Every cell of the box has all arrays: the plain backend.
-    #[default]
     EveryCell,
-    /// Only blocks that hold fluid, or touch it, have arrays: the fast backend.
+    /// Only blocks that hold fluid have arrays: the fast backend.
+    #[default]
     Blocks,
 }
 
@@ -135,7 +137,7 @@ pub fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
     let mut items = match layout {
         Layout::EveryCell => every_cell(setup, &item),
         Layout::Blocks => {
-            vec![item("blocks that hold fluid or touch it", Part::Populations, fast_bytes(setup))]
+            vec![item("blocks that hold fluid", Part::Populations, fast_bytes(setup))]
         }
     };
     if !setup.solids.is_empty() {
@@ -222,68 +224,82 @@ fn neighbour(setup: &Setup, at: [usize; 3], offset: [i32; 3]) -> Option<[usize; 
     Some(cell)
 }
 
-/// Cells of a block.
-const BLOCK: usize = 512;
-/// Populations of a cell in a block, with the padding between the 19 arrays of a block.
-const BLOCK_POPULATIONS: u64 = 2 * 19 * 8 * 520;
-/// What a cell that walls or the surface touch needs besides.
-const BLOCK_EXTRAS: u64 = 64;
-
-/// Bytes of the fast backend: two copies of the populations in blocks of 512 cells that hold fluid or
-/// touch it at time 0, and 64 bytes per cell for the surface and per boundary cell for walls.
+/// Bytes of the fast backend: two copies of the populations in blocks that hold fluid at time 0, records of
+/// cells at walls and at the surface, and what a block says of itself.
 #[must_use]
 pub fn fast_bytes(setup: &Setup) -> u64 {
-    let blocks = blocks(setup);
-    let surface = if setup.free_surface.is_some() { blocks * BLOCK as u64 * BLOCK_EXTRAS } else { 0 };
-    blocks * BLOCK_POPULATIONS + surface + boundary_cells(setup) * BLOCK_EXTRAS
+    let layout = Blocks::new(setup.extents, fast::LINE);
+    let held = held_blocks(setup, &layout);
+    let count = held.iter().filter(|&&held| held).count() as u64;
+    let cells = count * layout.block_cells() as u64;
+    let (rim, interface) = special_cells(setup, &layout, &held);
+    let mut per_cell = 2 * 19 * 8;
+    if setup.fluids.len() > 1 {
+        per_cell += 1;
+    }
+    if matches!(setup.yielding, YieldTreatment::LaggedClamped { .. }) {
+        per_cell += LAG;
+    }
+    let corrected = setup.wall_rule == WallRule::ViscosityIndependent;
+    if corrected && fast::has_walls(setup) {
+        per_cell += 8;
+    }
+    if setup.free_surface.is_some() {
+        per_cell += 1 + 8;
+    }
+    let per_rim = fast::rim_bytes(corrected);
+    let table = layout.bytes() + fast::sources_bytes(&layout);
+    cells * per_cell
+        + count * fast::block_bytes(&layout, setup.free_surface.is_some())
+        + rim * per_rim
+        + interface * fast::INTERFACE_BYTES
+        + table
 }
 
-/// Number of blocks that hold a fluid cell or a neighbour of one, at time 0.
-fn blocks(setup: &Setup) -> u64 {
-    let edges = block_edges(setup.extents);
-    let counts: [usize; 3] = std::array::from_fn(|a| setup.extents[a].div_ceil(edges[a]));
-    let everywhere = setup.solids.is_empty() && setup.free_surface.is_none();
-    if everywhere {
-        return counts.iter().product::<usize>() as u64;
+/// Which places hold a fluid cell at time 0.
+fn held_blocks(setup: &Setup, layout: &Blocks) -> Vec<bool> {
+    let mut held = vec![setup.solids.is_empty() && setup.free_surface.is_none(); layout.places()];
+    if held.first() == Some(&true) {
+        return held;
     }
-    let mut held = vec![false; counts.iter().product()];
+    for cell in (0..setup.cells()).filter(|&cell| holds_fluid(setup, cell)) {
+        held[layout.find(setup.coordinates(cell)).0] = true;
+    }
+    held
+}
+
+fn holds_fluid(setup: &Setup, cell: usize) -> bool {
     let surface = setup.free_surface.as_ref();
+    !setup.is_solid(cell)
+        && surface.is_none_or(|surface| surface.fill.get(cell).is_some_and(|&fill| fill > 0.0))
+}
+
+/// Cells of held blocks with an irregular link, and interface cells: partly filled ones, and full ones with
+/// an empty cell next to them along an axis.
+fn special_cells(setup: &Setup, layout: &Blocks, held: &[bool]) -> (u64, u64) {
+    let (mut rim, mut interface) = (0, 0);
     for cell in 0..setup.cells() {
-        let gas = surface.is_some_and(|surface| surface.fill.get(cell).is_none_or(|&fill| fill <= 0.0));
-        if gas || setup.is_solid(cell) {
+        let at = setup.coordinates(cell);
+        if setup.is_solid(cell) || !held[layout.find(at).0] {
             continue;
         }
-        let at = setup.coordinates(cell);
-        // Neighbours of a cell inside a block lie in the same block.
-        let reach = |a: usize| {
-            let inside = at[a] % edges[a];
-            let low = if inside == 0 { -1 } else { 0 };
-            let high = i32::from(inside + 1 == edges[a] || at[a] + 1 == setup.extents[a]);
-            low..=high
-        };
-        for dz in reach(2) {
-            for dy in reach(1) {
-                for dx in reach(0) {
-                    if let Some(near) = neighbour(setup, at, [dx, dy, dz]) {
-                        let block: [usize; 3] = std::array::from_fn(|a| near[a] / edges[a]);
-                        held[block[0] + counts[0] * (block[1] + counts[1] * block[2])] = true;
-                    }
-                }
-            }
+        let at_face = (0..3).any(|a| {
+            let n = setup.extents[a];
+            (at[a] == 0 && setup.faces[a][0] != Face::Periodic)
+                || (at[a] + 1 == n && setup.faces[a][1] != Face::Periodic)
+        });
+        rim += u64::from(at_face || (!setup.solids.is_empty() && touches_boundary(setup, cell)));
+        if let Some(surface) = &setup.free_surface {
+            let axes = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
+            let dry = |c: &[i32; 3]| {
+                let near = neighbour(setup, at, *c).map(|near| setup.index(near));
+                near.is_some_and(|near| !setup.is_solid(near) && surface.fill[near] <= 0.0)
+            };
+            let fill = surface.fill[cell];
+            interface += u64::from(fill > 0.0 && (fill < 1.0 || axes.iter().any(dry)));
         }
     }
-    held.iter().filter(|&&held| held).count() as u64
-}
-
-/// 8 × 8 × 8 cells; along a shorter axis the block is as short, and longer along the others.
-fn block_edges(extents: [usize; 3]) -> [usize; 3] {
-    let mut edges = [1; 3];
-    while edges.iter().product::<usize>() < BLOCK {
-        let open = (0..3).filter(|&a| edges[a] < extents[a]);
-        let Some(axis) = open.min_by_key(|&a| edges[a]) else { break };
-        edges[axis] *= 2;
-    }
-    edges
+    (rim, interface)
 }
 
 /// Bytes per cell of the box that are certain before anything is allocated: the features the scene asks
@@ -336,24 +352,20 @@ mod tests {
     const LAW: Law = Law::Newtonian { mu: 0.1 };
 
     #[test]
-    fn exact_block_shapes() {
-        assert_eq!(block_edges([100, 100, 100]), [8, 8, 8]);
-        assert_eq!(block_edges([100, 100, 1]), [32, 16, 1]);
-        assert_eq!(block_edges([1, 1000, 1]), [1, 512, 1]);
-        assert_eq!(block_edges([3, 3, 1]), [4, 4, 1]);
-    }
-
-    #[test]
     fn exact_number_of_blocks_below_a_surface() {
+        let count = |setup: &Setup| {
+            let layout = Blocks::new(setup.extents, fast::LINE);
+            held_blocks(setup, &layout).into_iter().filter(|&held| held).count()
+        };
         let mut setup = Setup::periodic([64, 64, 64], LAW);
-        assert_eq!(blocks(&setup), 512);
+        assert_eq!(count(&setup), 512);
         setup.faces[2] = [Face::NoSlip, Face::Open];
-        for (depth, layers) in [(7, 1), (8, 2), (9, 2), (64, 8)] {
+        for (depth, layers) in [(7, 1), (8, 1), (9, 2), (64, 8)] {
             let fill = (0..setup.cells())
                 .map(|cell| if setup.coordinates(cell)[2] < depth { 1.0 } else { 0.0 })
                 .collect();
             setup.free_surface = Some(FreeSurface::new(fill));
-            assert_eq!(blocks(&setup), 64 * layers, "{depth}");
+            assert_eq!(count(&setup), 64 * layers, "{depth}");
         }
     }
 

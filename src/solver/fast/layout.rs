@@ -28,6 +28,8 @@ pub struct Layout {
     table: Vec<u32>,
     /// Lattice velocities along the block axes.
     pub velocity: [[i32; 3]; Q],
+    /// [`Self::upstream`] of every place in a block and every direction.
+    upstream: Vec<[(u8, u16); Q]>,
 }
 
 impl Layout {
@@ -54,7 +56,11 @@ impl Layout {
         let counts = std::array::from_fn(|k| extents[axis[k]].div_ceil(block[k]));
         let velocity = C.map(|c| axis.map(|a| c[a]));
         let table = vec![NONE; counts.iter().product()];
-        Self { extents, axis, block, shift: block.map(usize::trailing_zeros), counts, table, velocity }
+        let shift = block.map(usize::trailing_zeros);
+        let mut layout = Self { extents, axis, block, shift, counts, table, velocity, upstream: Vec::new() };
+        let all = 0..layout.block_cells();
+        layout.upstream = all.map(|local| std::array::from_fn(|i| layout.find_upstream(local, i))).collect();
+        layout
     }
 
     /// Cells per block.
@@ -157,6 +163,11 @@ impl Layout {
     #[inline(always)]
     #[must_use]
     pub fn upstream(&self, local: usize, i: usize) -> (usize, usize) {
+        let (block, from) = self.upstream[local][i];
+        (usize::from(block), usize::from(from))
+    }
+
+    fn find_upstream(&self, local: usize, i: usize) -> (u8, u16) {
         let at = self.coordinates(local);
         let mut block = 0;
         let mut from = [0; 3];
@@ -169,7 +180,7 @@ impl Layout {
             block += (offset + 1) as usize * weight;
             weight *= 3;
         }
-        (block, self.local(from))
+        (block as u8, self.local(from) as u16)
     }
 
     /// Row that population `i` of a cell comes from, before the shift along the row: entry of
@@ -201,7 +212,7 @@ impl Layout {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        (self.table.len() * size_of::<u32>()) as u64
+        (self.table.len() * size_of::<u32>() + self.upstream.len() * size_of::<[(u8, u16); Q]>()) as u64
     }
 }
 

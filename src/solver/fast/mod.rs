@@ -5,6 +5,7 @@ pub mod element;
 pub mod instructions;
 pub mod kernel;
 pub mod layout;
+pub mod memory;
 pub mod registers;
 mod report;
 pub mod rim;

@@ -127,6 +127,17 @@ impl<P: Physics> Run for FastRun<P> {
         self.make_ledger()
     }
 
+    fn pass_seconds(&self) -> Vec<(&'static str, f64)> {
+        let mut passes = vec![("stream and collide", self.seconds[0])];
+        if self.corrected() {
+            passes.push(("walls", self.seconds[1]));
+        }
+        if self.surface.is_some() {
+            passes.push(("surface", self.seconds[2]));
+        }
+        passes
+    }
+
     fn loads(&self) -> Vec<Load> {
         self.surface.as_ref().map_or_else(Vec::new, |surface| surface.loads.clone())
     }
@@ -138,6 +149,7 @@ impl<P: Physics> Run for FastRun<P> {
         let blocks: u64 = self.blocks.iter().map(super::block::Block::bytes).sum();
         let marks = self.setup.solids.len() + self.setup.fluid_of_cell.len();
         let surface = self.surface.as_ref().map_or(0, super::surface::Surface::bytes);
-        populations + (rim + numbers + marks) as u64 + blocks + self.layout.bytes() + surface
+        let sources = super::memory::sources_bytes(&self.layout);
+        populations + (rim + numbers + marks) as u64 + blocks + self.layout.bytes() + sources + surface
     }
 }

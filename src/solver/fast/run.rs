@@ -1,5 +1,7 @@
 //! Arrays and steps of the fast backend.
 
+use std::time::Instant;
+
 use rayon::prelude::*;
 
 use super::block::{Block, Place, Velocities};
@@ -45,6 +47,8 @@ pub struct FastRun<P> {
     /// No collision yet.
     pub(super) fresh: bool,
     pub(super) step: u64,
+    /// Seconds spent so far in: collision, walls, surface.
+    pub(super) seconds: [f64; 3],
     pub(super) fluid_cells: u64,
     pub(super) pool: Option<rayon::ThreadPool>,
 }
@@ -83,6 +87,7 @@ impl<P: Physics> FastRun<P> {
             surface: None,
             fresh: true,
             step: 0,
+            seconds: [0.0; 3],
             fluid_cells: 0,
             pool,
         };
@@ -114,7 +119,7 @@ impl<P: Physics> FastRun<P> {
         self.layout.set_block(place, number as u32);
         let open = block.rim.iter().any(|cell| cell.open);
         let rim = if self.corrected() || open { block.rim.len() } else { 0 };
-        let walls = self.corrected() && self.has_walls();
+        let walls = self.corrected() && super::memory::has_walls(&self.setup);
         put(&mut self.rim, number, vec![Rim::default(); rim]);
         put(&mut self.density, number, vec![0.0; if walls { cells } else { 0 }]);
         let lagged = matches!(self.setup.yielding, YieldTreatment::LaggedClamped { .. });
@@ -123,13 +128,6 @@ impl<P: Physics> FastRun<P> {
         put(&mut self.new, number, Aligned::zeros(block_len(&self.layout)));
         put(&mut self.blocks, number, block);
         Some(number)
-    }
-
-    /// Whether any cell may touch a wall.
-    fn has_walls(&self) -> bool {
-        use crate::solver::setup::Face;
-        let wall = |face: &Face| matches!(face, Face::NoSlip | Face::Moving(_));
-        !self.setup.solids.is_empty() || self.setup.faces.iter().flatten().any(wall)
     }
 
     /// Starting populations of every cell, block by block.
@@ -190,16 +188,24 @@ impl<P: Physics> FastRun<P> {
     /// One time step.
     fn advance_one(&mut self) -> Result<(), Stopped> {
         let force = self.setup.force.at(self.step);
+        let mut watch = Instant::now();
+        let mut lap = |seconds: &mut f64| {
+            let now = Instant::now();
+            *seconds += now.duration_since(std::mem::replace(&mut watch, now)).as_secs_f64();
+        };
         let outcomes = self.collide_pass(force);
         self.close_last_step(&outcomes)?;
         let failed = outcomes.iter().filter_map(|outcome| outcome.failed).min_by_key(|&(cell, _)| cell);
         if let Some((_, stopped)) = failed {
             return Err(stopped);
         }
+        lap(&mut self.seconds[0]);
         self.wall_pass(&force);
+        lap(&mut self.seconds[1]);
         std::mem::swap(&mut self.old, &mut self.new);
         self.fresh = false;
         self.surface_pass(&force);
+        lap(&mut self.seconds[2]);
         self.step += 1;
         Ok(())
     }
