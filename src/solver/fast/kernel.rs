@@ -18,8 +18,12 @@ use crate::solver::plain::cell::runaway;
 use crate::solver::run::Stopped;
 use crate::solver::setup::Setup;
 
-/// Packs between asking for a line and using it: several hundred nanoseconds, more than memory takes.
-const AHEAD: usize = 8;
+/// Packs between asking for a line of another block and using it: two microseconds, several times what memory
+/// takes. Lines of the block itself are asked for a whole block earlier.
+const FAR: usize = 16;
+
+/// Packs between moving a line to the first-level cache and using it.
+const NEAR: usize = 2;
 
 /// What all blocks of a pass share; everything here is only read.
 pub struct Task<'a, P, E> {
@@ -99,12 +103,25 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
     let straight = !sources.is_empty() && !task.fresh;
     let mut stage = Stage::new();
     let mut liquid = [0.0; MOST];
-    let next = task.old.get(own.number + 1).map_or(&[][..], Aligned::get);
-    for pack in 0..block.usable.len() {
+    let packs = block.usable.len();
+    let coming = [1, 2].map(|k| task.old.get(own.number + k).map_or(&[][..], Aligned::get));
+    let around_next = Around::next(task, own.number);
+    // A pack of this block, or beyond its end one of the next.
+    let later = |pack: usize| match sources.get(pack) {
+        Some(later) => Some((&around, later)),
+        None => around_next.as_ref().zip(sources.get(pack.wrapping_sub(packs))),
+    };
+    for pack in 0..packs {
         let local = pack * line;
-        prefetch_line_group(next, pack + AHEAD);
-        if let Some(later) = sources.get(pack + AHEAD / 2) {
-            later.prefetch(&around);
+        match pack + FAR {
+            far if far < packs => prefetch_pack(coming[0], far),
+            far => prefetch_pack(coming[1], far - packs),
+        }
+        if let Some((around, sources)) = later(pack + FAR) {
+            sources.prefetch_far(around);
+        }
+        if let Some((around, sources)) = later(pack + NEAR) {
+            sources.prefetch_near(around);
         }
         let class = Class::new(task, block, own.number, pack, line);
         if class.fluid == 0 {
@@ -188,11 +205,11 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
     outcome
 }
 
-/// Asks for the lines of a pack of the next block.
+/// Asks for the lines of a pack of a block to come.
 #[inline(always)]
-fn prefetch_line_group<E: Element>(next: &[E], pack: usize) {
+fn prefetch_pack<E: Element>(block: &[E], pack: usize) {
     for i in 0..Q {
-        stores::prefetch(next, (pack * Q + i) * E::PER_LINE);
+        stores::prefetch_far(block, (pack * Q + i) * E::PER_LINE);
     }
 }
 

@@ -151,11 +151,13 @@ impl Layout {
     pub fn around(&self, place: usize) -> [usize; 27] {
         let [n0, n1, n2] = self.counts;
         let at = [place % n0, (place / n0) % n1, place / (n0 * n1)];
-        std::array::from_fn(|k| {
-            let offset = [k % 3, (k / 3) % 3, k / 9];
-            let wrapped = |a: usize, n: usize| (at[a] + n + offset[a] - 1) % n;
-            wrapped(0, n0) + n0 * (wrapped(1, n1) + n1 * wrapped(2, n2))
-        })
+        let along = |a: usize, n: usize| {
+            let low = if at[a] == 0 { n - 1 } else { at[a] - 1 };
+            let high = if at[a] + 1 == n { 0 } else { at[a] + 1 };
+            [low, at[a], high]
+        };
+        let (x, y, z) = (along(0, n0), along(1, n1), along(2, n2));
+        std::array::from_fn(|k| x[k % 3] + n0 * (y[k / 3 % 3] + n1 * z[k / 9]))
     }
 
     /// Where population `i` of a cell comes from on the grid of blocks: entry of [`Self::around`] and place in

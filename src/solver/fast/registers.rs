@@ -14,7 +14,7 @@ pub trait Registers: Copy + Send + Sync + 'static {
 
     /// First [`Self::WIDTH`] numbers of a slice.
     fn load(from: &[Self::Element]) -> Self::Pack;
-    /// Numbers from a place on that is known to be inside; see [`super::stores::number`].
+    /// Numbers from a place on that is known to be inside; see [`super::stores::numbers`].
     #[inline(always)]
     fn load_at(from: &[Self::Element], at: usize) -> Self::Pack {
         Self::load(super::stores::numbers(from, at, Self::WIDTH))
@@ -30,10 +30,10 @@ pub trait Registers: Copy + Send + Sync + 'static {
     fn load_wide(from: &[f64]) -> Self::Pack;
     /// To `f64`.
     fn store_wide(pack: Self::Pack, to: &mut [f64]);
-    /// The same pack with another first lane.
-    fn with_first(pack: Self::Pack, x: Self::Element) -> Self::Pack;
-    /// The same pack with another last lane.
-    fn with_last(pack: Self::Pack, x: Self::Element) -> Self::Pack;
+    /// The last lane of the pack before, then all lanes of this one but the last.
+    fn shifted_up(before: Self::Pack, pack: Self::Pack) -> Self::Pack;
+    /// All lanes of this pack but the first, then the first lane of the pack behind.
+    fn shifted_down(pack: Self::Pack, behind: Self::Pack) -> Self::Pack;
 }
 
 /// `N` numbers in f64, stored in f64: the reference precision.
@@ -64,13 +64,15 @@ impl<const N: usize> Registers for Double<N> {
         Self::store(pack, to);
     }
     #[inline(always)]
-    fn with_first(mut pack: Pack<N>, x: f64) -> Pack<N> {
-        pack.0[0] = x;
-        pack
+    fn shifted_up(before: Pack<N>, pack: Pack<N>) -> Pack<N> {
+        let mut x = [before.0[N - 1]; N];
+        x[1..].copy_from_slice(&pack.0[..N - 1]);
+        Pack(x)
     }
     #[inline(always)]
-    fn with_last(mut pack: Pack<N>, x: f64) -> Pack<N> {
-        pack.0[N - 1] = x;
-        pack
+    fn shifted_down(pack: Pack<N>, behind: Pack<N>) -> Pack<N> {
+        let mut x = [behind.0[0]; N];
+        x[..N - 1].copy_from_slice(&pack.0[1..]);
+        Pack(x)
     }
 }

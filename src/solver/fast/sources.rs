@@ -5,7 +5,7 @@ use super::kernel::index;
 use super::layout::Layout;
 use super::registers::Registers;
 use super::stage::Around;
-use super::stores::{self, number};
+use super::stores;
 use crate::lane::unroll::directions;
 use crate::lattice::{C, Q};
 
@@ -43,21 +43,35 @@ impl Sources {
         Self { from, before: (x * Q) as u32, behind: ((row - x - E::PER_LINE) * Q) as u32, far }
     }
 
-    /// Asks for the lines of other blocks early: they come without a pattern that the processor could guess.
+    /// Asks for the lines of other blocks long before they are used: they come from memory, without a pattern
+    /// that the processor could guess. Into the second-level cache: a request for the first level holds one of
+    /// its few places for lines on their way until memory has answered, and the loads of the pack in
+    /// work wait behind it.
     #[inline(always)]
-    pub fn prefetch<E: Element>(&self, around: &Around<E>) {
+    pub fn prefetch_far<E: Element>(&self, around: &Around<E>) {
         for &i in &self.far {
             let (entry, base) = self.from[usize::from(i)];
-            stores::prefetch(around.slices[entry as usize], base as usize);
+            stores::prefetch_far(around.entry(entry as usize), base as usize);
             // The end of a row that lies one block further has not been touched by the block before.
             if C[usize::from(i)][0] == -1 && self.behind == 0 {
-                stores::prefetch(around.slices[entry as usize + 1], (base - self.before) as usize);
+                stores::prefetch_far(around.entry(entry as usize + 1), (base - self.before) as usize);
             }
+        }
+    }
+
+    /// Asks for all lines of the pack just before they are used, from the second-level cache.
+    #[inline(always)]
+    pub fn prefetch_near<E: Element>(&self, around: &Around<E>) {
+        for (entry, base) in self.from {
+            stores::prefetch_near(around.entry(entry as usize), base as usize);
         }
     }
 }
 
 /// The populations that arrive in part of an ordinary pack.
+///
+/// Where they come from along the row, two neighbouring packs are loaded whole and shifted: a load across
+/// two lines takes as long as two loads, and to put a single number in takes two more operations.
 #[inline(always)]
 pub fn gather<R: Registers>(around: &Around<R::Element>, sources: &Sources, part: usize) -> [R::Pack; Q] {
     let line = R::Element::PER_LINE;
@@ -66,30 +80,30 @@ pub fn gather<R: Registers>(around: &Around<R::Element>, sources: &Sources, part
         |i| {
             let (entry, base) = (sources.from[i].0 as usize, sources.from[i].1 as usize);
             let from = around.entry(entry);
+            let pack = R::load_at(from, base + part);
             match C[i][0] {
                 1 => {
-                    let shifted = R::load_at(from, base + part - 1);
-                    if part > 0 {
-                        shifted
+                    let before = if part > 0 {
+                        R::load_at(from, base + part - R::WIDTH)
                     } else if sources.before > 0 {
-                        R::with_first(shifted, number(from, base - Q * line + line - 1))
+                        R::load_at(from, base - Q * line + line - R::WIDTH)
                     } else {
-                        let last = base + sources.behind as usize + line - 1;
-                        R::with_first(shifted, number(around.entry(entry - 1), last))
-                    }
+                        let last = base + sources.behind as usize + line - R::WIDTH;
+                        R::load_at(around.entry(entry - 1), last)
+                    };
+                    R::shifted_up(before, pack)
                 }
                 -1 => {
-                    let shifted = R::load_at(from, base + part + 1);
-                    if part + R::WIDTH < line {
-                        shifted
+                    let behind = if part + R::WIDTH < line {
+                        R::load_at(from, base + part + R::WIDTH)
                     } else if sources.behind > 0 {
-                        R::with_last(shifted, number(from, base + Q * line))
+                        R::load_at(from, base + Q * line)
                     } else {
-                        let first = base - sources.before as usize;
-                        R::with_last(shifted, number(around.entry(entry + 1), first))
-                    }
+                        R::load_at(around.entry(entry + 1), base - sources.before as usize)
+                    };
+                    R::shifted_down(pack, behind)
                 }
-                _ => R::load_at(from, base + part),
+                _ => pack,
             }
         },
     )

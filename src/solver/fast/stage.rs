@@ -61,6 +61,13 @@ impl<'a, E: Element> Around<'a, E> {
         Self { slices }
     }
 
+    /// Around the block after this one, if there is one that holds anything.
+    #[inline]
+    pub fn next<P>(task: &Task<'a, P, E>, number: usize) -> Option<Self> {
+        let next = task.old.get(number + 1)?;
+        (next.get().len() == task.old[number].get().len()).then(|| Self::new(task, number + 1))
+    }
+
     /// The populations of one of the 27.
     #[inline(always)]
     pub fn entry(&self, at: usize) -> &'a [E] {

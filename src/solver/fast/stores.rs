@@ -40,11 +40,25 @@ pub fn fence() {
     }
 }
 
-/// Asks the processor to fetch the line of a number soon; nothing happens where there is no such instruction.
+/// Asks for the line of a number from memory, into the second-level cache; nothing happens where there is no
+/// such instruction.
 #[inline(always)]
-pub fn prefetch<E: Element>(from: &[E], at: usize) {
+pub fn prefetch_far<E: Element>(from: &[E], at: usize) {
     #[cfg(target_arch = "x86_64")]
     // SAFETY: a prefetch reads nothing and may name any address.
+    unsafe {
+        use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
+        _mm_prefetch::<_MM_HINT_T1>(from.as_ptr().wrapping_add(at).cast());
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (from, at);
+}
+
+/// Asks for the line of a number from the second-level cache, into the first; as [`prefetch_far`].
+#[inline(always)]
+pub fn prefetch_near<E: Element>(from: &[E], at: usize) {
+    #[cfg(target_arch = "x86_64")]
+    // SAFETY: as above.
     unsafe {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         _mm_prefetch::<_MM_HINT_T0>(from.as_ptr().wrapping_add(at).cast());
@@ -53,27 +67,19 @@ pub fn prefetch<E: Element>(from: &[E], at: usize) {
     let _ = (from, at);
 }
 
-/// A number of a slice, checked in tests only.
+/// `len` numbers of a slice from a place on, checked in tests only.
 ///
 /// The 29 places a pack is gathered from are tabulated for all blocks alike ([`super::sources`]), and a block's
 /// numbers are as many as the table was made for; to check each of them again for every pack takes a
 /// fifth of the time of a step.
 #[inline(always)]
-pub fn number<E: Element>(from: &[E], at: usize) -> E {
-    debug_assert!(at < from.len());
-    // SAFETY: `Sources` names places below the length of a block, and `Around` holds whole blocks only.
-    unsafe { *from.get_unchecked(at) }
-}
-
-/// `len` numbers of a slice from a place on, checked in tests only; see [`number`].
-#[inline(always)]
 pub fn numbers<E: Element>(from: &[E], at: usize, len: usize) -> &[E] {
     debug_assert!(at + len <= from.len());
-    // SAFETY: as for `number`.
+    // SAFETY: `Sources` names places below the length of a block, and `Around` holds whole blocks only.
     unsafe { from.get_unchecked(at..at + len) }
 }
 
-/// An entry of the neighbourhood, checked in tests only; see [`number`].
+/// An entry of the neighbourhood, checked in tests only; see [`numbers`].
 #[inline(always)]
 pub fn entry<'a, E: Element>(slices: &[&'a [E]; 27], at: usize) -> &'a [E] {
     debug_assert!(at < slices.len());

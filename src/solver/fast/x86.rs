@@ -35,7 +35,8 @@ macro_rules! register {
      $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $splat:ident $load:ident $store:ident,
      $to_int:ident $to_real:ident $splat_int:ident $add_int:ident $and_int:ident $or_int:ident $xor_int:ident
      $left:ident $right:ident $stream:ident,
-     [$m:ident $a:ident $b:ident] $less:expr, $less_equal:expr, $select:expr, $and:expr, $not:expr, $any:expr) => {
+     [$m:ident $a:ident $b:ident] $less:expr, $less_equal:expr, $select:expr, $and:expr, $not:expr, $any:expr,
+     $up:expr, $down:expr) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         pub(super) struct $name($reg);
@@ -220,16 +221,16 @@ macro_rules! register {
                 Self::store(pack, to);
             }
             #[inline(always)]
-            fn with_first(pack: $name, x: f64) -> $name {
-                let mut lanes = pack.to_array();
-                lanes[0] = x;
-                $name::from_array(lanes)
+            fn shifted_up(before: $name, pack: $name) -> $name {
+                let ($a, $b) = (before.0, pack.0);
+                // SAFETY: see the head of the file.
+                $name(unsafe { $up })
             }
             #[inline(always)]
-            fn with_last(pack: $name, x: f64) -> $name {
-                let mut lanes = pack.to_array();
-                lanes[$width - 1] = x;
-                $name::from_array(lanes)
+            fn shifted_down(pack: $name, behind: $name) -> $name {
+                let ($a, $b) = (pack.0, behind.0);
+                // SAFETY: see the head of the file.
+                $name(unsafe { $down })
             }
         }
     };
@@ -246,7 +247,9 @@ register!(
     _mm_or_pd(_mm_and_pd(m, a), _mm_andnot_pd(m, b)),
     _mm_and_pd(a, b),
     _mm_xor_pd(m, _mm_castsi128_pd(_mm_set1_epi64x(-1))),
-    _mm_movemask_pd(m) != 0
+    _mm_movemask_pd(m) != 0,
+    _mm_shuffle_pd::<0b01>(a, b),
+    _mm_shuffle_pd::<0b01>(a, b)
 );
 
 register!(
@@ -261,7 +264,9 @@ register!(
     _mm256_blendv_pd(b, a, m),
     _mm256_and_pd(a, b),
     _mm256_xor_pd(m, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))),
-    _mm256_movemask_pd(m) != 0
+    _mm256_movemask_pd(m) != 0,
+    _mm256_shuffle_pd::<0b0101>(_mm256_permute2f128_pd::<0x21>(a, b), b),
+    _mm256_shuffle_pd::<0b0101>(a, _mm256_permute2f128_pd::<0x21>(a, b))
 );
 
 register!(
@@ -277,5 +282,7 @@ register!(
     _mm512_mask_blend_pd(m, b, a),
     a & b,
     !m,
-    m != 0
+    m != 0,
+    _mm512_castsi512_pd(_mm512_alignr_epi64::<7>(_mm512_castpd_si512(b), _mm512_castpd_si512(a))),
+    _mm512_castsi512_pd(_mm512_alignr_epi64::<1>(_mm512_castpd_si512(b), _mm512_castpd_si512(a)))
 );
