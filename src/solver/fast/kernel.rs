@@ -129,7 +129,17 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
         }
         let ordinary = straight && class.ordinary;
         if !ordinary {
-            stage.fill(task, block, own, &around, &class, local);
+            if straight {
+                for part in (0..line).step_by(R::WIDTH) {
+                    let h = gather::<R>(&around, &sources[pack], part);
+                    for i in 0..Q {
+                        R::store(h[i], &mut stage.populations[i][part..]);
+                    }
+                }
+            } else {
+                stage.gather(task, own, &around, local);
+            }
+            stage.mend(task, block, own, &class, local);
         }
         for part in (0..line).step_by(R::WIDTH) {
             let h = if ordinary {

@@ -31,8 +31,11 @@ pub fn block_bytes(layout: &Layout, surface: bool) -> u64 {
     let packs = layout.block_cells() / LINE;
     let lanes = if surface { packs * size_of::<Lanes>() } else { 0 };
     let alignment = 2 * 64;
-    (size_of::<Block>() + packs * (size_of::<u16>() + size_of::<u32>()) + size_of::<u32>() + alignment + lanes)
-        as u64
+    (size_of::<Block>()
+        + packs * (size_of::<u16>() + size_of::<u32>())
+        + size_of::<u32>()
+        + alignment
+        + lanes) as u64
 }
 
 /// Of the table of sources.

@@ -100,17 +100,9 @@ impl<E: Element> Stage<E> {
         }
     }
 
-    /// Gathers a pack that starts at `local`.
+    /// Gathers a pack that starts at `local` where rows do not run along x, or before the first collision.
     #[inline(never)]
-    pub fn fill<P: Physics>(
-        &mut self,
-        task: &Task<P, E>,
-        block: &Block,
-        own: &mut Own<E>,
-        around: &Around<E>,
-        class: &Class,
-        local: usize,
-    ) {
+    pub fn gather<P: Physics>(&mut self, task: &Task<P, E>, own: &Own<E>, around: &Around<E>, local: usize) {
         let line = E::PER_LINE;
         let own_old = task.old[own.number].get();
         for (i, column) in self.populations.iter_mut().enumerate() {
@@ -120,6 +112,19 @@ impl<E: Element> Stage<E> {
                 gather_row(task.layout, around, i, local, &mut column[..line]);
             }
         }
+    }
+
+    /// Puts right what the grid of blocks does not know: walls, irregular links, interface cells, idle lanes.
+    #[inline(never)]
+    pub fn mend<P: Physics>(
+        &mut self,
+        task: &Task<P, E>,
+        block: &Block,
+        own: &mut Own<E>,
+        class: &Class,
+        local: usize,
+    ) {
+        let line = E::PER_LINE;
         if !task.fresh {
             self.fill_links(task, block, own, class, local);
         }
