@@ -71,7 +71,9 @@ impl Case {
             Self::ChannelNewtonian | Self::ChannelBingham | Self::ChannelHerschelBulkley => {
                 "relative L2 error of the steady velocity against the exact profile"
             }
-            Self::Vortex => "relative L2 error of the velocity after it has halved against the exact solution",
+            Self::Vortex => {
+                "relative L2 error of the velocity after it has halved against the exact solution"
+            }
             Self::FilmNewtonian | Self::FilmBingham | Self::FilmHerschelBulkley => {
                 "relative error of the steady discharge against the exact one, worse of two fill levels"
             }

@@ -20,7 +20,8 @@ fn work() -> Work {
         backend: backend.to_owned(),
         nanoseconds,
     };
-    let speeds = vec![speed(CENTRAL, "plain", 300.0), speed(CENTRAL, "fast", 100.0), speed(TRT, "plain", 100.0)];
+    let speeds =
+        vec![speed(CENTRAL, "plain", 300.0), speed(CENTRAL, "fast", 100.0), speed(TRT, "plain", 100.0)];
     Work { points, speeds, measured: None }
 }
 

@@ -179,7 +179,9 @@ impl<P: Physics> SurfaceRun<P> {
             }
             let here = self.force_at(at, force);
             let h = &self.f[at];
-            let state = self.state(at, &here);
+            // Not `self.state`: the array of ω⁺ is being written, chunk by chunk.
+            let previous = chunk.omega.get(k).copied().unwrap_or(0.0);
+            let state = cell::state(&self.physics, h, &here, 0, previous);
             if failed.is_none()
                 && let Some(what) = cell::runaway(&state.m, self.setup.speed_limit)
             {

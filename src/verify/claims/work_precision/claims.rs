@@ -36,7 +36,11 @@ pub const UPDATES: Claim = Claim {
         uncertainty: 0.0,
     },
     metric: Metric::Relative,
-    ladder: Ladder { parameter: "N (cells across)", short: &[8.0, 16.0, 32.0], full: &[8.0, 16.0, 32.0, 48.0] },
+    ladder: Ladder {
+        parameter: "N (cells across)",
+        short: &[8.0, 16.0, 32.0],
+        full: &[8.0, 16.0, 32.0, 48.0],
+    },
     order: None,
     tolerance: Tolerance {
         value: 0.02,
@@ -95,7 +99,10 @@ pub const CLAMP: Claim = Claim {
     tags: &["Y3", "Y4", "B3", "001 Sec 3.1"],
     measures: "updates of the cheapest run of a Bingham channel within the error, over those of the clamped scheme (BGK, \
                τ of the previous step, half-way walls); N = 8, 16, 32, Δt/Δx² = 1, 4 and 0.05, 0.2",
-    reference: Reference { source: "both errors are against the exact profile of the ideal law", uncertainty: 0.0 },
+    reference: Reference {
+        source: "both errors are against the exact profile of the ideal law",
+        uncertainty: 0.0,
+    },
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "error wanted (per cent)", short: &[2.0, 1.0], full: &[2.0, 1.0] },
     order: None,
@@ -104,7 +111,7 @@ pub const CLAMP: Claim = Claim {
         at: Rung::Every,
         because: "the clamped core moves ahead by 2G(τ_max − ½) on the lattice, 6Gν_max(Δt/Δx²)²Δx² in the units of the \
                   channel with ν_max = 26.7, which is 2 % of the plug's 0.3125 at N = 16 for Δt/Δx² = 0.05: steps have to \
-                  be eighty times shorter than the 4 of the exact yield; half as many in case a coarser clamp does",
+                  be eighty times shorter than the 4 of the exact yield; a factor of four is left for transients",
     },
     kind: Kind::Verification,
     measure: clamp,
@@ -129,7 +136,11 @@ pub const ORDER_BINGHAM: Claim = Claim {
     measures: "relative L2 error where the work is counted, τ = 1.1",
     reference: EXACT,
     metric: Metric::Absolute,
-    ladder: Ladder { parameter: "N (cells across)", short: &[8.0, 16.0, 32.0], full: &[8.0, 16.0, 32.0, 64.0] },
+    ladder: Ladder {
+        parameter: "N (cells across)",
+        short: &[8.0, 16.0, 32.0],
+        full: &[8.0, 16.0, 32.0, 64.0],
+    },
     order: Some(OrderBand { expected: 2.0, band: 0.3, at_least: false }),
     tolerance: Tolerance {
         value: 0.05,
@@ -144,18 +155,23 @@ pub const ORDER_BINGHAM: Claim = Claim {
 /// Herschel-Bulkley channel.
 pub const ORDER_HERSCHEL_BULKLEY: Claim = Claim {
     id: "work-order-channel-herschel-bulkley",
-    title: "In a Herschel-Bulkley channel from rest (n = 0.33) the error falls faster than N^1.3",
+    title: "In a Herschel-Bulkley channel from rest (n = 0.33) the error falls faster than N^1.4",
     tags: &["Y3", "K3", "B3"],
     measures: "relative L2 error where the work is counted, Δt/Δx² = 1",
     reference: EXACT,
     metric: Metric::Absolute,
-    ladder: Ladder { parameter: "N (cells across)", short: &[8.0, 16.0, 32.0], full: &[8.0, 16.0, 32.0, 64.0] },
-    order: Some(OrderBand { expected: 1.8, band: 0.5, at_least: true }),
+    ladder: Ladder {
+        parameter: "N (cells across)",
+        short: &[16.0, 24.0, 32.0],
+        full: &[16.0, 24.0, 32.0, 48.0, 64.0],
+    },
+    order: Some(OrderBand { expected: 2.0, band: 0.6, at_least: true }),
     tolerance: Tolerance {
-        value: 0.2,
+        value: 0.05,
         at: Rung::Every,
-        because: "γ̇ ∝ (stress above yield)³ falls eightfold over half the sheared layer, which has two cells at N = 8: the \
-                  midpoint rule is off by 1/(4·2²) of the cube's own scale, 6 %, and the wall's slope by as much again",
+        because: "midpoint rule for γ̇ ∝ s³, s the stress above yield, over M = N/4 sheared cells: 1/(2M²) of the plug's \
+                  velocity, 3.1 % at N = 16, plus the tenth that is left of the transient and the cell that holds the yield \
+                  surface. Order 2 is approached from below: with M = 4 the cells at the wall and at the plug are half of all",
     },
     kind: Kind::Verification,
     measure: |backend, n| rung(backend, Case::ChannelHerschelBulkley, n),
@@ -169,7 +185,11 @@ pub const ORDER_VORTEX: Claim = Claim {
     measures: "relative L2 error of the velocity after it has halved, ν = 0.05, U = 1.6/N",
     reference: EXACT,
     metric: Metric::Absolute,
-    ladder: Ladder { parameter: "N (cells per wave)", short: &[16.0, 32.0, 64.0], full: &[16.0, 32.0, 64.0, 128.0] },
+    ladder: Ladder {
+        parameter: "N (cells per wave)",
+        short: &[16.0, 32.0, 64.0],
+        full: &[16.0, 32.0, 64.0, 128.0],
+    },
     order: Some(OrderBand { expected: 2.0, band: 0.1, at_least: false }),
     tolerance: Tolerance {
         value: 0.05,
@@ -216,7 +236,10 @@ pub const BACKENDS: Claim = Claim {
     title: "Errors and updates are the same with the fast backend as with the plain one",
     tags: &["L7"],
     measures: "error of a channel of each fluid (0 to 2) and of vortices (3) with 16 cells",
-    reference: Reference { source: "the other backend, which packs cells and keeps them in blocks", uncertainty: 0.0 },
+    reference: Reference {
+        source: "the other backend, which packs cells and keeps them in blocks",
+        uncertainty: 0.0,
+    },
     metric: Metric::Absolute,
     ladder: Ladder {
         parameter: "flow (its number in the table)",
@@ -224,7 +247,11 @@ pub const BACKENDS: Claim = Claim {
         full: &[0.0, 1.0, 2.0, 3.0],
     },
     order: None,
-    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "the same operations in the same order: the same bits" },
+    tolerance: Tolerance {
+        value: 0.0,
+        at: Rung::Every,
+        because: "the same operations in the same order: the same bits",
+    },
     kind: Kind::Verification,
     measure: backends,
 };

@@ -74,7 +74,8 @@ fn times(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> 
 
 /// One curve per scheme and backend: for every error the least time, over time steps and resolutions.
 fn figure(work: &Work, case: Case) -> Plot {
-    let mut plot = Plot::new(case.name(), Axis::log("computing time, one thread", "s"), Axis::log("error", ""));
+    let mut plot =
+        Plot::new(case.name(), Axis::log("computing time, one thread", "s"), Axis::log("error", ""));
     for speed in work.speeds.iter().filter(|s| s.case == case) {
         let runs = work.points.iter().filter(|p| p.case == case && p.scheme == speed.scheme);
         let cost = runs.map(|p| [1e-9 * speed.nanoseconds * p.updates, p.error]).collect();

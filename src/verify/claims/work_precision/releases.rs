@@ -59,9 +59,7 @@ fn depth(view: &View, r: f64) -> f64 {
     match (next.checked_sub(1), view.r.get(next)) {
         (None, _) => view.h[0],
         (Some(_), None) => 0.0,
-        (Some(i), Some(s)) => {
-            view.h[i] + (view.h[next] - view.h[i]) * (r - view.r[i]) / (s - view.r[i])
-        }
+        (Some(i), Some(s)) => view.h[i] + (view.h[next] - view.h[i]) * (r - view.r[i]) / (s - view.r[i]),
     }
 }
 
