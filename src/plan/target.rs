@@ -148,6 +148,11 @@ pub fn quote_from(work: &Work, scene: &Scene, plan: &Plan, target: Target) -> Qu
     let cells = cells::fill(scene);
     let answer = match case_of(scene, &plan.numbers, &cells) {
         Err(why) => Answer::NotCovered(why),
+        Ok((case, ..)) if target.share() < case.reference_error() => Answer::NotCovered(format!(
+            "the nearest flow, {}, is compared with lubrication theory, which is itself off by up to {} %",
+            case.name(),
+            100.0 * case.reference_error()
+        )),
         Ok((case, along, differences)) => {
             covered(work, scene, plan, &cells, target, (case, along, differences)).map_or_else(
                 || Answer::NotCovered(format!("the table has no result for `{}`", case.name())),
