@@ -39,7 +39,9 @@ pub(super) fn until_it_stays(
         let now = error(run.as_ref());
         seen.push(Outcome { error: now, steps: run.step(), updates });
         let width = (ALIKE * now).max(FLOOR);
-        let settled = seen.iter().rposition(|o| !((o.error - now).abs() <= width)).map_or(0, |i| i + 1);
+        // A NaN is never the same.
+        let same = |o: &Outcome| (o.error - now).abs() <= width;
+        let settled = seen.iter().rposition(|o| !same(o)).map_or(0, |i| i + 1);
         let Some(first) = seen.get(settled) else { continue };
         if run.step() as f64 >= memory && 2 * run.step() >= 3 * first.steps {
             return Ok(*first);
