@@ -7,6 +7,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 use lahar::bench::{self, BenchError};
 use lahar::output::OutputError;
+use lahar::plan::target::{self, Target};
 use lahar::plan::{Layout, Plan, PlanError};
 use lahar::report::{self, ReportError, ReportOutcome};
 use lahar::run_scene::{self, Options, RunError};
@@ -63,6 +64,10 @@ enum Command {
         /// Solver whose memory is counted.
         #[arg(long, value_enum, default_value = "fast")]
         backend: BackendName,
+        /// Also say which spacing, scheme and time step reach this relative error, and at what cost: `1%`
+        /// or `0.01`.
+        #[arg(long, value_name = "E", allow_hyphen_values = true)]
+        target_error: Option<Target>,
     },
     /// Measure this machine: bandwidth, speed of a fixed list of flows, shares of the ceiling.
     Bench {
@@ -168,7 +173,7 @@ fn main() -> ExitCode {
         Command::Run { scene, out, backend, threads, until, quiet } => {
             run(&scene, out, backend, threads, until, quiet)
         }
-        Command::Plan { scene, json, backend } => plan(&scene, json, backend),
+        Command::Plan { scene, json, backend, target_error } => plan(&scene, json, backend, target_error),
         Command::Bench { json, quick, threads, only } => {
             measure(json, &bench::Options { quick, threads: count(threads), only })
         }
@@ -235,12 +240,23 @@ fn default_folder(scene: &Scene) -> PathBuf {
     PathBuf::from("out").join(name)
 }
 
-fn plan(path: &Path, json: bool, backend: BackendName) -> Result<(), Failure> {
-    let plan = Plan::for_layout(&scene::load(path)?, backend.layout())?;
+fn plan(path: &Path, json: bool, backend: BackendName, target_error: Option<Target>) -> Result<(), Failure> {
+    let scene = scene::load(path)?;
+    let plan = Plan::for_layout(&scene, backend.layout())?;
+    let quote = target_error.map(|target| target::quote(&scene, &plan, target)).transpose()?;
     if json {
-        print(&format!("{}\n", serde_json::to_string_pretty(&plan.numbers)?))
+        /// The numbers, with the quote beside them where it was asked for.
+        #[derive(serde::Serialize)]
+        struct WithTarget<'a> {
+            #[serde(flatten)]
+            numbers: &'a lahar::plan::Numbers,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            target: Option<target::Quote>,
+        }
+        let all = WithTarget { numbers: &plan.numbers, target: quote };
+        print(&format!("{}\n", serde_json::to_string_pretty(&all)?))
     } else {
-        print(&plan.to_string())
+        print(&format!("{plan}{}", quote.map_or_else(String::new, |quote| quote.to_string())))
     }
 }
 

@@ -74,6 +74,70 @@ fn plan_as_table_and_as_json() {
     assert_eq!(json["tau_max"], serde_json::Value::Null);
 }
 
+fn snapshot(name: &str, text: &str) {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(root().join("golden/snapshots"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings.bind(|| insta::assert_snapshot!(name, text));
+}
+
+/// What `plan --target-error` adds, without the line that holds a measured speed.
+fn target_section(scene: &str, target: &str) -> String {
+    let output = lahar(&["plan", scene, "--target-error", target]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let at = text.find("\nTarget error").expect("a section");
+    let lines = text[at..].lines().filter(|line| !line.contains("ns per update"));
+    lines.map(|line| format!("{line}\n")).collect()
+}
+
+#[test]
+fn plan_quotes_the_table_of_work_and_precision() {
+    let mut all = String::new();
+    for (scene, target) in [
+        ("scenes/verify/channel_bingham.json", "1%"),
+        ("scenes/verify/channel_newtonian.json", "0.0001"),
+        ("scenes/verify/film_herschel_bulkley.json", "1 %"),
+        ("scenes/show/slump_cone.json", "0.1%"),
+        ("scenes/verify/taylor_green_3d.json", "1%"),
+        ("scenes/verify/pipe_newtonian.json", "1%"),
+        ("scenes/verify/couette.json", "1%"),
+        ("scenes/verify/womersley.json", "1%"),
+        ("scenes/verify/pool_at_rest.json", "1%"),
+    ] {
+        all.push_str(&format!("{scene} --target-error {target}\n{}\n", target_section(scene, target)));
+    }
+    snapshot("plan__target_error", &all);
+}
+
+#[test]
+fn every_scene_gets_a_recommendation_or_a_reason() {
+    for path in scenes() {
+        let output = lahar(&["plan", &path.to_string_lossy(), "--target-error", "1%", "--json"]);
+        let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let target = &json["target"];
+        let reason = target["not_covered"].as_str().is_some_and(|why| !why.is_empty());
+        let cells = target["covered"]["advice"]["cells"].as_f64().is_some_and(|cells| cells >= 3.0);
+        assert!(reason != cells, "{}: {target}", path.display());
+    }
+}
+
+#[test]
+fn bad_target_errors_are_exit_code_2_with_a_way_out() {
+    for target in ["much", "-1%", "0", "2", "NaN"] {
+        let output = lahar(&["plan", "scenes/verify/couette.json", "--target-error", target]);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{target}: {message}");
+        assert!(message.contains("way out") && message.contains(target), "{target}: {message}");
+    }
+}
+
+#[test]
+fn help_of_plan() {
+    snapshot("help_plan", &String::from_utf8_lossy(&lahar(&["plan", "--help"]).stdout));
+}
+
 #[test]
 fn run_writes_all_its_files_and_the_same_bits_with_two_threads() {
     let mut fingerprints = Vec::new();

@@ -7,12 +7,15 @@ mod initial;
 pub mod law;
 mod lower;
 pub mod memory;
+mod nearest_flow;
 mod needs;
 mod numbers;
 mod print;
+mod print_target;
 mod scale;
 pub mod surface;
 mod surface_checks;
+pub mod target;
 mod time_step;
 
 use std::fmt;

@@ -86,7 +86,8 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     Ok(())
 }
 
-fn row(f: &mut fmt::Formatter<'_>, name: &str, value: fmt::Arguments<'_>) -> fmt::Result {
+/// A line of the table.
+pub(super) fn row(f: &mut fmt::Formatter<'_>, name: &str, value: fmt::Arguments<'_>) -> fmt::Result {
     let padding = 38_usize.saturating_sub(name.chars().count());
     write!(f, "  {name}")?;
     for _ in 0..padding {
@@ -141,7 +142,7 @@ fn tau(tau: f64) -> String {
 }
 
 /// Four significant digits; scientific outside 1e-3 … 1e6.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == f64::INFINITY { "∞".to_owned() } else { format!("{value}") };
     }

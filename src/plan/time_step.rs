@@ -131,7 +131,17 @@ pub fn choose(scene: &Scene, scales: &Scales, pool: Option<&Pool>) -> Result<(f6
         }
         return Ok((of_speed(mach / 3.0_f64.sqrt()), StepRule::TargetMach));
     }
-    let mut best = (of_tau(TAU), StepRule::Tau);
+    Ok(free(scene, scales, pool, TAU, viscosity))
+}
+
+/// Δt where nothing is given: the least of what `tau` of the plastic viscosity, the speed, compression and
+/// the duration allow.
+fn free(scene: &Scene, scales: &Scales, pool: Option<&Pool>, tau: f64, viscosity: f64) -> (f64, StepRule) {
+    let dx = scene.domain.spacing_m;
+    let rho = scene.fluid.density_kg_per_m3;
+    let of_tau = |tau: f64| (tau - 0.5) / 3.0 * rho * dx * dx / viscosity;
+    let of_speed = |u: f64| u * dx / scales.velocity;
+    let mut best = (of_tau(tau), StepRule::Tau);
     let mut lower = |dt: f64, rule| {
         if dt < best.0 {
             best = (dt, rule);
@@ -150,7 +160,15 @@ pub fn choose(scene: &Scene, scales: &Scales, pool: Option<&Pool>) -> Result<(f6
     }
     lower(compression_step(scene, pool), StepRule::Compression);
     lower(duration(scene) / STEPS_PER_PERIOD, StepRule::Duration);
-    Ok(best)
+    best
+}
+
+/// Δt with another aim for τ of the plastic viscosity, whatever the scene gives; `None` when the law has no
+/// viscosity of its own.
+#[must_use]
+pub fn with_tau(scene: &Scene, scales: &Scales, pool: Option<&Pool>, tau: f64) -> Option<f64> {
+    let viscosity = reference_viscosity(scene, scales)?;
+    Some(free(scene, scales, pool, tau, viscosity).0)
 }
 
 /// \[F7\]: the largest Δt with 3 f H Δt²/(ρ Δx²) ≤ 0.02 along every walled axis; H is the

@@ -16,6 +16,7 @@ pub mod order;
 pub mod record;
 pub mod reference_values;
 pub mod study;
+pub mod work;
 
 use crate::solver::run::Backend;
 use ladder::Depth;

@@ -13,8 +13,9 @@ pub mod slump;
 pub mod stability;
 pub mod unsteady;
 pub mod viscosity;
+pub mod work_precision;
 
-static STUDIES: [&Study; 9] = [
+static STUDIES: [&Study; 10] = [
     &moments::STUDY,
     &viscosity::STUDY,
     &poiseuille::STUDY,
@@ -24,6 +25,7 @@ static STUDIES: [&Study; 9] = [
     &film::STUDY,
     &slump::STUDY,
     &dam_break::STUDY,
+    &work_precision::STUDY,
 ];
 
 /// All studies, in the order of the report.

@@ -5,7 +5,7 @@ mod exhibits;
 mod mutants;
 mod sound;
 mod table;
-mod vortices;
+pub(super) mod vortices;
 mod waves;
 
 use crate::verify::golden::Agreement;

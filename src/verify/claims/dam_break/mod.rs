@@ -5,7 +5,7 @@ use crate::verify::study::Study;
 
 mod exhibits;
 mod mudflow;
-mod newtonian;
+pub(super) mod newtonian;
 mod slope;
 mod thesis;
 

@@ -38,7 +38,7 @@ impl Block {
         self.aspect * self.height as f64
     }
 
-    pub(super) fn setup(&self) -> Setup {
+    pub fn setup(&self) -> Setup {
         let n = (self.reach * self.height as f64).ceil() as usize;
         let across = if self.geometry == Geometry::Axisymmetric { n } else { 1 };
         let nz = (self.headroom * self.height as f64).ceil() as usize;
@@ -81,7 +81,7 @@ impl Block {
     }
 
     /// The twin's front at a threshold, cells.
-    fn twin(&self, times: &[f64], threshold: f64) -> Result<Vec<f64>, VerifyError> {
+    pub fn twin(&self, times: &[f64], threshold: f64) -> Result<Vec<f64>, VerifyError> {
         let dx = 0.1;
         let cells = (1.5 * self.reach * self.height as f64 / dx) as usize;
         let layer = ThinLayer {
@@ -103,7 +103,7 @@ impl Block {
 }
 
 /// A viscous block: compression 3 g h0 = 0.02, τ = 1.
-pub(super) fn viscous(geometry: Geometry, height: usize) -> Block {
+pub fn viscous(geometry: Geometry, height: usize) -> Block {
     let (aspect, reach) = if geometry == Geometry::Planar { (4.0, 15.0) } else { (3.0, 7.5) };
     Block {
         geometry,
@@ -119,10 +119,10 @@ pub(super) fn viscous(geometry: Geometry, height: usize) -> Block {
 }
 
 /// Depth, over the initial height, that counts as the front.
-const THRESHOLD: f64 = 0.1;
+pub const THRESHOLD: f64 = 0.1;
 
 /// Times when the similarity solution has spread to these multiples of the initial length.
-fn spread_time(block: &Block, setup: &Setup, multiple: f64) -> f64 {
+pub fn spread_time(block: &Block, setup: &Setup, multiple: f64) -> f64 {
     let current = ViscousCurrent {
         geometry: block.geometry,
         volume: block.volume(setup),

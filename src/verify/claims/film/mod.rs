@@ -6,7 +6,7 @@ use crate::verify::study::Study;
 mod exhibits;
 mod marginal;
 mod newtonian;
-mod support;
+pub(super) mod support;
 mod yielding;
 
 /// The study.

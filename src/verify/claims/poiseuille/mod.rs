@@ -1,7 +1,7 @@
 //! Claims of the study `poiseuille`: channels, ducts, pipes and Couette flow of all fluids.
 
-mod channel;
-mod clamped;
+pub(super) mod channel;
+pub(super) mod clamped;
 mod couette;
 mod density;
 mod ducts_pipes;

@@ -5,10 +5,10 @@ use crate::verify::study::Study;
 
 mod exhibits;
 mod quarter;
-mod scene;
-mod shear;
+pub(super) mod scene;
+pub(super) mod shear;
 mod tall;
-mod twin;
+pub(super) mod twin;
 
 /// The study.
 pub static STUDY: Study = Study {

@@ -17,16 +17,16 @@ use crate::verify::reference_values::{Input, find};
 
 const TWO_PI: f64 = core::f64::consts::TAU;
 
-fn centre(cell: [usize; 3]) -> [f64; 3] {
+pub fn centre(cell: [usize; 3]) -> [f64; 3] {
     cell.map(|i| i as f64 + 0.5)
 }
 
-fn flat(field: impl IntoIterator<Item = [f64; 3]>) -> Vec<f64> {
+pub fn flat(field: impl IntoIterator<Item = [f64; 3]>) -> Vec<f64> {
     field.into_iter().flatten().collect()
 }
 
 /// Starts a two-dimensional vortex in a box of `n` × `n` × 1 cells of its plane.
-fn vortex_setup(flow: TaylorGreen2d, n: usize) -> Setup {
+pub fn vortex_setup(flow: TaylorGreen2d, n: usize) -> Setup {
     let (a, b) = flow.plane.axes();
     let extents = std::array::from_fn(|axis| if axis == a || axis == b { n } else { 1 });
     let mut setup = Setup::periodic(extents, Law::Newtonian { mu: flow.nu });

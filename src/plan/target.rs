@@ -1,0 +1,258 @@
+//! `plan --target-error`: what the study `work-precision` says about a scene.
+
+use std::str::FromStr;
+
+use serde::Serialize;
+
+use super::cells::{self, Cells};
+use super::nearest_flow::{case_of, scheme_of};
+use super::scale;
+use super::time_step;
+use super::{Numbers, Plan};
+use crate::scene::Scene;
+use crate::verify::work::{Advice, Case, Choice, Operator, Walls, Work, predicted, recommend};
+
+/// A relative error to aim at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target(f64);
+
+/// What is wrong with a target error.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TargetError {
+    /// Not a number.
+    #[error(
+        "`{found}` is not a number\n  allowed: a share or a percentage\n  way out: for example `1%` or `0.01`"
+    )]
+    NotANumber { found: String },
+    /// A number that is no error to aim at.
+    #[error(
+        "found {found}\n  allowed: 1e-6 to 0.5 (0.0001% to 50%); below that rounding and compressibility decide, above it \
+         nothing is computed\n  way out: for example `1%` or `0.01`"
+    )]
+    OutOfRange { found: String },
+}
+
+impl FromStr for Target {
+    type Err = TargetError;
+
+    fn from_str(text: &str) -> Result<Self, TargetError> {
+        let trimmed = text.trim();
+        let (digits, unit) =
+            trimmed.strip_suffix('%').map_or((trimmed, 1.0), |digits| (digits.trim(), 100.0));
+        let found = || text.to_owned();
+        let number: f64 = digits.parse().map_err(|_| TargetError::NotANumber { found: found() })?;
+        let share = number / unit;
+        // A NaN is in no range.
+        if (1e-6..=0.5).contains(&share) {
+            Ok(Self(share))
+        } else {
+            Err(TargetError::OutOfRange { found: found() })
+        }
+    }
+}
+
+impl Target {
+    /// As a share of the whole.
+    #[must_use]
+    pub const fn share(self) -> f64 {
+        self.0
+    }
+}
+
+/// What the table says about a scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Quote {
+    /// The error aimed at.
+    pub target_error: f64,
+    /// The answer.
+    #[serde(flatten)]
+    pub answer: Answer,
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Answer {
+    /// The table does not cover the scene; why.
+    NotCovered(String),
+    /// It does.
+    Covered(Box<Covered>),
+}
+
+/// A scene and its nearest flow of the table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Covered {
+    /// The nearest flow.
+    pub nearest: &'static str,
+    /// What its error is.
+    pub error_is: &'static str,
+    /// What cells are counted along.
+    pub cells_are: &'static str,
+    /// How the scene differs from it.
+    pub differences: Vec<String>,
+    /// Those cells in the scene as written.
+    pub cells: f64,
+    /// Error to expect of the scene as written; `null` where its scheme is not in the table.
+    pub error_as_written: Option<f64>,
+    /// Whether that is an extrapolation.
+    pub extrapolated: bool,
+    /// Whether the table reaches the target; if not, `advice` is the most exact run.
+    pub reached: bool,
+    /// What to do.
+    pub advice: Recommended,
+}
+
+/// A choice, put into the scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Recommended {
+    /// Cells along the length that counts.
+    pub cells: f64,
+    /// Largest spacing with that many cells, m.
+    pub spacing_m: f64,
+    /// `numerics.collision.operator`.
+    pub operator: &'static str,
+    /// `numerics.wall_rule`; `null` without walls.
+    pub wall_rule: Option<&'static str>,
+    /// τ of the plastic viscosity in the table.
+    pub relaxation_time: f64,
+    /// The time step that this, the speed, compression and the duration leave, s; `null` when the law has
+    /// no viscosity of its own.
+    pub time_step_s: Option<f64>,
+    /// Error of the run in the table.
+    pub error: f64,
+    /// Cell updates of this scene.
+    pub cell_updates: Option<f64>,
+    /// Backend that is fastest at it.
+    pub backend: Option<String>,
+    /// Nanoseconds per update with it.
+    pub nanoseconds_per_update: Option<f64>,
+    /// Expected hours on one thread.
+    pub hours: Option<f64>,
+    /// When the speed was measured.
+    pub measured: Option<String>,
+    /// On which machine.
+    pub machine: Option<String>,
+}
+
+/// What the table this build carries says about a scene and its plan.
+///
+/// # Errors
+/// The table was not readable when lahar was built.
+pub fn quote(scene: &Scene, plan: &Plan, target: Target) -> Result<Quote, serde_json::Error> {
+    Ok(quote_from(&Work::built_in()?, scene, plan, target))
+}
+
+/// The same from another table.
+#[must_use]
+pub fn quote_from(work: &Work, scene: &Scene, plan: &Plan, target: Target) -> Quote {
+    let cells = cells::fill(scene);
+    let answer = match case_of(scene, &plan.numbers, &cells) {
+        Err(why) => Answer::NotCovered(why),
+        Ok((case, ..)) if target.share() < case.reference_error() => Answer::NotCovered(format!(
+            "the nearest flow, {}, is compared with lubrication theory, which is itself off by up to {} %",
+            case.name(),
+            100.0 * case.reference_error()
+        )),
+        Ok((case, along, differences)) => {
+            covered(work, scene, plan, &cells, target, (case, along, differences)).map_or_else(
+                || Answer::NotCovered(format!("the table has no result for `{}`", case.name())),
+                |covered| Answer::Covered(Box::new(covered)),
+            )
+        }
+    };
+    Quote { target_error: target.share(), answer }
+}
+
+fn covered(
+    work: &Work,
+    scene: &Scene,
+    plan: &Plan,
+    cells: &Cells,
+    target: Target,
+    (case, along, differences): (Case, f64, Vec<String>),
+) -> Option<Covered> {
+    let numbers = &plan.numbers;
+    let expected = scheme_of(&scene.numerics, &plan.setup, case)
+        .and_then(|scheme| predicted(work, case, scheme, numbers.tau_plastic, along));
+    let (choice, reached) = match recommend(work, case, target.share()) {
+        Advice::Reached(choice) => (choice, true),
+        Advice::Missed(choice) => (choice, false),
+        Advice::Empty => return None,
+    };
+    Some(Covered {
+        nearest: case.name(),
+        error_is: case.error(),
+        cells_are: case.length(),
+        differences,
+        cells: along,
+        error_as_written: expected.map(|(error, _)| error),
+        extrapolated: expected.is_some_and(|(_, outside)| outside),
+        reached,
+        advice: recommended(work, scene, numbers, cells, &choice, along),
+    })
+}
+
+fn recommended(
+    work: &Work,
+    scene: &Scene,
+    numbers: &Numbers,
+    cells: &Cells,
+    choice: &Choice,
+    along: f64,
+) -> Recommended {
+    let point = &choice.point;
+    let spacing = numbers.spacing_m * along / point.n;
+    let mut changed = scene.clone();
+    changed.domain.spacing_m = spacing;
+    let scales = scale::scales(scene, cells);
+    let dt = time_step::with_tau(&changed, &scales, cells.pool.as_ref(), point.tau);
+    // Axes of one cell stay one cell thick.
+    let axes = numbers.extents.iter().filter(|&&n| n > 1).count();
+    let more = (0..axes).fold(1.0, |product, _| product * numbers.spacing_m / spacing);
+    let updates = dt.map(|dt| numbers.fluid_cells as f64 * more * (numbers.end_time_s / dt).ceil());
+    let nanoseconds = choice.speed.as_ref().map(|(_, nanoseconds)| *nanoseconds);
+    let measured = work.measured.as_ref().filter(|_| nanoseconds.is_some());
+    Recommended {
+        cells: point.n,
+        spacing_m: spacing,
+        operator: match point.scheme.operator {
+            Operator::CentralMoment => "central_moment",
+            Operator::Trt => "trt",
+            Operator::Bgk => "bgk",
+            Operator::LaggedClamp => "bgk with lagged_clamped",
+        },
+        wall_rule: match point.scheme.walls {
+            Walls::None => None,
+            Walls::Independent => Some("viscosity_independent"),
+            Walls::HalfWay => Some("half_way"),
+        },
+        relaxation_time: point.tau,
+        time_step_s: dt,
+        error: point.error,
+        cell_updates: updates,
+        backend: choice.speed.as_ref().map(|(backend, _)| backend.clone()),
+        nanoseconds_per_update: nanoseconds,
+        hours: updates.zip(nanoseconds).map(|(updates, ns)| 1e-9 * ns * updates / 3600.0),
+        measured: measured.map(|m| m.date.clone()),
+        machine: measured.map(|m| m.machine.clone()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn targets_as_shares_and_percentages() {
+        for (text, share) in [("1%", 0.01), ("0.01", 0.01), ("0.1 %", 0.001), (" 1e-4 ", 1e-4), ("50%", 0.5)]
+        {
+            assert_eq!(text.parse::<Target>().map(Target::share), Ok(share), "{text}");
+        }
+        for text in ["", "%", "one", "1%%", "1 per cent"] {
+            assert!(matches!(text.parse::<Target>(), Err(TargetError::NotANumber { .. })), "{text}");
+        }
+        for text in ["0", "-1%", "1", "51%", "NaN", "inf", "1e-7"] {
+            assert!(matches!(text.parse::<Target>(), Err(TargetError::OutOfRange { .. })), "{text}");
+        }
+    }
+}
