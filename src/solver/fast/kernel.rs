@@ -1,4 +1,11 @@
 //! The packed pass over one block: gather, collide, store.
+//!
+//! # Bytes per update
+//! In f64 a cell costs 152 bytes read and 152 bytes written; stores past the cache do not read first what they
+//! overwrite. In blocks of 8 × 8 × 8 cells a block also reads 156 lines of 64 bytes from the blocks beside it in
+//! y and z: 19.5 bytes per cell more where these have left the cache by then, nothing where they have not. The
+//! lines of the blocks before and behind it in x are read once for both. Hence 304 to 324 bytes: counted from
+//! the layout, not measured at the memory, and without the entries of page tables.
 
 use super::block::Block;
 use super::element::{Aligned, Element};
