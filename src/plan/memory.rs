@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::boundary::links::BoundaryCell;
 use crate::scene::{Scene, SurfaceGravity, YieldChoice};
+use crate::solver::choose;
 use crate::solver::fast::layout::Layout as Blocks;
 use crate::solver::fast::memory as fast;
 use crate::solver::setup::{Face, Setup, SurfaceForce, WallRule, YieldTreatment};
@@ -134,6 +135,10 @@ pub fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
     };
     let per_cell = |what, part, bytes: u64| item(what, part, bytes * cells);
     let surface = setup.free_surface.as_ref();
+    let layout = match choose::only_plain(setup) {
+        None => layout,
+        Some(_) => Layout::EveryCell,
+    };
     let mut items = match layout {
         Layout::EveryCell => every_cell(setup, &item),
         Layout::Blocks => {

@@ -7,7 +7,6 @@ use super::points::schemes;
 use crate::solver::fast::Fast;
 use crate::solver::plain::Plain;
 use crate::solver::run::{Backend, Run};
-use crate::solver::setup::Setup;
 use crate::verify::claim::VerifyError;
 use crate::verify::work::{Case, Speed};
 
@@ -16,18 +15,10 @@ const ROUNDS: usize = 5;
 /// Cell updates of a slice: short, full.
 const SLICE: [f64; 2] = [5e4, 4e5];
 
-/// Whether the fast backend runs flows with a free surface.
-const FAST_SURFACES: bool = false;
-
-/// The backends that can run a set-up: the one place that knows.
-pub fn backends(setup: &Setup) -> Vec<&'static dyn Backend> {
+/// The backends that a set-up is timed on.
+pub fn backends() -> [&'static dyn Backend; 2] {
     static FAST: Fast = Fast { instructions: None };
-    let fast = FAST_SURFACES || setup.free_surface.is_none();
-    let mut all: Vec<&'static dyn Backend> = vec![&Plain];
-    if fast {
-        all.push(&FAST);
-    }
-    all
+    [&Plain, &FAST]
 }
 
 /// A run being timed.
@@ -50,7 +41,7 @@ pub fn speeds(case: Case, full: bool) -> Result<Vec<Speed>, VerifyError> {
     for scheme in schemes(case) {
         let trial = Trial { case, scheme, n, step: 1.0 };
         let setup = trial.wide()?;
-        for backend in backends(&setup) {
+        for backend in backends() {
             let mut run = backend.start(&setup)?;
             let steps = (SLICE[usize::from(full)] / run.fluid_cells() as f64).ceil() as u64;
             // The first steps fill the caches and, after a release, set the fluid in motion.
