@@ -129,7 +129,7 @@ fn commands_refuse_what_does_not_fit() {
             .expect("it starts");
         let message = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{message}");
-        for part in ["3375000000 cells need 1559.", " GiB\n  allowed: at most the ", "`domain.spacing_m` of "]
+        for part in ["3375000000 cells need 641.", " GiB\n  allowed: at most the ", "`domain.spacing_m` of "]
         {
             assert!(message.contains(part), "`{part}` in {message}");
         }

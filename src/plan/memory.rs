@@ -229,7 +229,7 @@ fn neighbour(setup: &Setup, at: [usize; 3], offset: [i32; 3]) -> Option<[usize; 
     Some(cell)
 }
 
-/// Bytes of the fast backend: two copies of the populations in blocks that hold fluid at time 0, records of
+/// Bytes of the fast backend: two copies of the populations in blocks that hold fluid at time 0 or that it touches, records of
 /// cells at walls and at the surface, and what a block says of itself.
 #[must_use]
 pub fn fast_bytes(setup: &Setup) -> u64 {
@@ -261,14 +261,22 @@ pub fn fast_bytes(setup: &Setup) -> u64 {
         + table
 }
 
-/// Which places hold a fluid cell at time 0.
+/// Which places hold a fluid cell at time 0, and, below a free surface, a neighbour of one: the fluid will move.
 fn held_blocks(setup: &Setup, layout: &Blocks) -> Vec<bool> {
     let mut held = vec![setup.solids.is_empty() && setup.free_surface.is_none(); layout.places()];
     if held.first() == Some(&true) {
         return held;
     }
     for cell in (0..setup.cells()).filter(|&cell| holds_fluid(setup, cell)) {
-        held[layout.find(setup.coordinates(cell)).0] = true;
+        let at = setup.coordinates(cell);
+        held[layout.find(at).0] = true;
+        if setup.free_surface.is_some() {
+            for c in &crate::lattice::C[1..7] {
+                if let Some(near) = neighbour(setup, at, *c) {
+                    held[layout.find(near).0] = true;
+                }
+            }
+        }
     }
     held
 }
@@ -365,7 +373,7 @@ mod tests {
         let mut setup = Setup::periodic([64, 64, 64], LAW);
         assert_eq!(count(&setup), 512);
         setup.faces[2] = [Face::NoSlip, Face::Open];
-        for (depth, layers) in [(7, 1), (8, 1), (9, 2), (64, 8)] {
+        for (depth, layers) in [(7, 1), (8, 2), (9, 2), (64, 8)] {
             let fill = (0..setup.cells())
                 .map(|cell| if setup.coordinates(cell)[2] < depth { 1.0 } else { 0.0 })
                 .collect();

@@ -4,14 +4,14 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::block::{Block, Place, Velocities};
+use super::block::{Block, From, Place, Velocities, numbers_around};
 use super::element::{Aligned, Element};
 use super::instructions::{self, Chosen};
 use super::kernel::{Outcome, Own, Task, block_len, index};
 use super::layout::{Layout, NONE};
 use super::rim::{Rim, WallTask, correct};
 use super::sources::Sources;
-use super::stage::{Around, after, open_link, wall_link};
+use super::stage::{after, open_link, wall_link};
 use super::stores;
 use super::surface::{Surface, put};
 use crate::lattice::Q;
@@ -295,25 +295,34 @@ impl<P: Physics> FastRun<P> {
             return cell.f;
         }
         let block = &self.blocks[number];
-        let around = Around::new(&task, number);
-        std::array::from_fn(|i| {
-            let Some(link) = block.link(local, i, LINE) else {
+        let mut links = block.links_of_cell(local, LINE).iter().peekable();
+        // Most cells have all their neighbours in their own block.
+        let mut around = None;
+        let mut f = own;
+        for i in 1..Q {
+            let Some(link) = links.next_if(|link| usize::from(link.direction) == i) else {
                 let (entry, from) = self.layout.upstream(local, i);
-                return around.slices[entry][index::<f64>(from, i)];
+                let there = match entry {
+                    13 => number,
+                    _ => around.get_or_insert_with(|| numbers_around(&self.layout, block.place))[entry] as usize,
+                };
+                f[i] = self.old[there].get()[index::<f64>(from, i)];
+                continue;
             };
-            match link.from {
-                super::block::From::Cell { cell, direction } => {
+            f[i] = match link.from {
+                From::Cell { cell, direction } => {
                     let number = self.layout.block_at(cell.block as usize) as usize;
                     self.old[number].get()[index::<f64>(cell.local as usize, usize::from(direction))]
                 }
-                super::block::From::Wall { velocity, .. } => {
+                From::Wall { velocity, .. } => {
                     let u = &self.velocities.list[velocity as usize];
                     let rho = 1.0 + density_excess(&own);
                     wall_link(&task, number, &self.rim[number], link, rho, u)
                 }
-                super::block::From::Open => open_link(&task, number, &self.rim[number], link),
-            }
-        })
+                From::Open => open_link(&task, number, &self.rim[number], link),
+            };
+        }
+        f
     }
 
     pub(super) fn run(&mut self, steps: u64) -> Result<(), Stopped> {
