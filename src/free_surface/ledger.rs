@@ -102,7 +102,8 @@ mod tests {
 
     #[test]
     fn exact_sum_of_terms_of_very_different_size() {
-        let small = 2.0_f64.powi(-80);
+        // 2⁻⁸⁰.
+        let small = f64::from_bits((1023 - 80) << 52);
         let mut sum = Sum::default();
         for term in [1.0, 3e10, small, -3e10, -1.0] {
             sum.add(term);
