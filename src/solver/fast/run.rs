@@ -304,7 +304,8 @@ impl<P: Physics> FastRun<P> {
                 let (entry, from) = self.layout.upstream(local, i);
                 let there = match entry {
                     13 => number,
-                    _ => around.get_or_insert_with(|| numbers_around(&self.layout, block.place))[entry] as usize,
+                    _ => around.get_or_insert_with(|| numbers_around(&self.layout, block.place))[entry]
+                        as usize,
                 };
                 f[i] = self.old[there].get()[index::<f64>(from, i)];
                 continue;
