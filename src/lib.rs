@@ -2,7 +2,8 @@
 //!
 //! # The way of a scene
 //! [`scene`] (SI, checked) → [`plan`] (lattice units, what is needed) → [`solver::setup::Setup`] →
-//! a [`solver::run::Run`] of some [`solver::run::Backend`] → [`output`]. Claims about the physics are
+//! a [`solver::run::Run`] of some [`solver::run::Backend`] → [`output`]. Two backends give the same bits:
+//! [`solver::plain`] is written to be read, [`solver::fast`] to be fast; `tests/backend_parity.rs` compares them. Claims about the physics are
 //! in [`verify`]; [`report`] turns their records into `REPORT.md`.
 //!
 //! # The map

@@ -4,7 +4,8 @@
 //! 3n over the memory bus, not 2n. A store that covers a whole line and goes past the cache moves 2n.
 //! It pays only where the data are not wanted again before they would have left the cache anyway.
 //!
-//! This file holds all `unsafe` of the crate: the standard library offers such stores only for raw pointers.
+//! The standard library offers such stores only for raw pointers, hence the `unsafe` here; the rest of it is in
+//! `solver/fast` (`x86`, `stores`, `instructions`).
 
 /// Eight numbers, as long and as aligned as a cache line.
 #[derive(Clone, Copy, Debug, PartialEq)]
