@@ -73,7 +73,7 @@ pub fn prefetch_near<E: Element>(from: &[E], at: usize) {
 /// numbers are as many as the table was made for; to check each of them again for every pack takes a
 /// fifth of the time of a step.
 #[inline(always)]
-pub fn numbers<E: Element>(from: &[E], at: usize, len: usize) -> &[E] {
+pub(super) fn numbers<E: Element>(from: &[E], at: usize, len: usize) -> &[E] {
     debug_assert!(at + len <= from.len());
     // SAFETY: `Sources` names places below the length of a block, and `Around` holds whole blocks only.
     unsafe { from.get_unchecked(at..at + len) }
@@ -81,7 +81,7 @@ pub fn numbers<E: Element>(from: &[E], at: usize, len: usize) -> &[E] {
 
 /// An entry of the neighbourhood, checked in tests only; see [`numbers`].
 #[inline(always)]
-pub fn entry<'a, E: Element>(slices: &[&'a [E]; 27], at: usize) -> &'a [E] {
+pub(super) fn entry<'a, E: Element>(slices: &[&'a [E]; 27], at: usize) -> &'a [E] {
     debug_assert!(at < slices.len());
     // SAFETY: `Sources` names entries 0 to 26.
     unsafe { slices.get_unchecked(at) }
