@@ -118,6 +118,7 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
         Some(later) => Some((&around, later)),
         None => around_next.as_ref().zip(sources.get(pack.wrapping_sub(packs))),
     };
+    let constant = task.physics.constant_omega().map(R::Pack::splat);
     for pack in 0..packs {
         let local = pack * line;
         match pack + FAR {
@@ -168,7 +169,10 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
                 },
             );
             let m = task.physics.moments(&h, &force);
-            let omega = omega::<R, P>(task, block, own, local + part, &m);
+            let omega = match constant {
+                Some(omega) => omega,
+                None => omega::<R, P>(task, block, own, local + part, &m),
+            };
             guard::<R, P>(task, block, (local + part, class.fluid >> part), &m, omega, &mut outcome);
             if !own.lag.is_empty() {
                 R::store_wide(omega, &mut own.lag[local + part..]);
@@ -239,9 +243,6 @@ fn omega<R: Registers, P: Physics>(
     local: usize,
     m: &Moments<R::Pack>,
 ) -> R::Pack {
-    if let Some(omega) = task.physics.constant_omega() {
-        return R::Pack::splat(omega);
-    }
     let q = task.physics.stress_magnitude(m);
     let previous = if own.lag.is_empty() { R::Pack::zero() } else { R::load_wide(&own.lag[local..]) };
     let numbers = block.fluid.get(local..local + R::WIDTH).unwrap_or(&[0]);

@@ -76,6 +76,10 @@ impl<'a, E: Element> Around<'a, E> {
 }
 
 /// Columns of one pack.
+///
+/// Aligned so that the function it lives in aligns its stack: registers that are put aside there would
+/// otherwise lie across two lines, each.
+#[repr(align(64))]
 pub struct Stage<E> {
     /// Populations before collision, then after.
     pub populations: [[E; MOST]; Q],
