@@ -70,8 +70,11 @@ impl Chosen {
     }
 }
 
-/// A pass over one block in f64.
-pub fn run<P: Physics>(chosen: Chosen, task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
+/// A pass over one block.
+pub type Pass<P, E> = fn(Chosen, &Task<P, E>, &mut Own<E>) -> Outcome;
+
+/// A pass in f64.
+pub fn double<P: Physics>(chosen: Chosen, task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
     match chosen.get() {
         Instructions::Baseline => baseline(task, own),
         #[cfg(target_arch = "x86_64")]

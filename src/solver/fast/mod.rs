@@ -66,5 +66,5 @@ impl Backend for Fast {
 }
 
 fn boxed<P: Physics>(setup: &Setup, physics: P, chosen: Chosen) -> Result<Box<dyn Run>, StartError> {
-    Ok(Box::new(FastRun::start(setup, physics, chosen)?))
+    Ok(Box::new(FastRun::start(setup, physics, chosen, instructions::double)?))
 }
