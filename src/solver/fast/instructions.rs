@@ -2,7 +2,10 @@
 
 use super::kernel::{Outcome, Own, Task, pass};
 #[cfg(target_arch = "x86_64")]
-use super::x86;
+use super::{
+    x86::{Avx2, Avx512, Sse2},
+    x86_single::{Avx2Single, Avx2Stored, Avx512Single, Avx512Stored, Sse2Single, Sse2Stored},
+};
 use crate::solver::physics::Physics;
 
 /// Instruction sets the pass is compiled for.
@@ -73,39 +76,54 @@ impl Chosen {
 /// A pass over one block.
 pub type Pass<P, E> = fn(Chosen, &Task<P, E>, &mut Own<E>) -> Outcome;
 
-/// A pass in f64.
-pub fn double<P: Physics>(chosen: Chosen, task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
-    match chosen.get() {
-        Instructions::Baseline => baseline(task, own),
-        #[cfg(target_arch = "x86_64")]
-        // SAFETY: `Chosen` is only made of what the processor has.
-        Instructions::Avx2 => unsafe { avx2(task, own) },
-        #[cfg(target_arch = "x86_64")]
-        // SAFETY: as above.
-        Instructions::Avx512 => unsafe { avx512(task, own) },
-        #[cfg(not(target_arch = "x86_64"))]
-        Instructions::Avx2 | Instructions::Avx512 => baseline(task, own),
-    }
+/// A pass compiled for every instruction set: portable registers, then those of x86_64.
+macro_rules! passes {
+    ($(#[$doc:meta])* $name:ident, $element:ty, $portable:ty, $sse2:ident $avx2:ident $avx512:ident) => {
+        $(#[$doc])*
+        pub fn $name<P: Physics>(
+            chosen: Chosen,
+            task: &Task<P, $element>,
+            own: &mut Own<$element>,
+        ) -> Outcome {
+            #[cfg(target_arch = "x86_64")]
+            {
+                #[target_feature(enable = "avx2")]
+                fn avx2<P: Physics>(task: &Task<P, $element>, own: &mut Own<$element>) -> Outcome {
+                    pass::<$avx2, P>(task, own)
+                }
+                #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
+                fn avx512<P: Physics>(task: &Task<P, $element>, own: &mut Own<$element>) -> Outcome {
+                    pass::<$avx512, P>(task, own)
+                }
+                match chosen.get() {
+                    Instructions::Baseline => pass::<$sse2, P>(task, own),
+                    // SAFETY: `Chosen` is only made of what the processor has.
+                    Instructions::Avx2 => unsafe { avx2(task, own) },
+                    // SAFETY: as above.
+                    Instructions::Avx512 => unsafe { avx512(task, own) },
+                }
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            match chosen.get() {
+                Instructions::Baseline | Instructions::Avx2 | Instructions::Avx512 => {
+                    pass::<$portable, P>(task, own)
+                }
+            }
+        }
+    };
 }
 
-#[cfg(target_arch = "x86_64")]
-fn baseline<P: Physics>(task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
-    pass::<x86::Sse2, P>(task, own)
-}
+passes!(
+    /// In f64.
+    double, f64, super::registers::Double<2>, Sse2 Avx2 Avx512
+);
 
-#[cfg(not(target_arch = "x86_64"))]
-fn baseline<P: Physics>(task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
-    pass::<super::registers::Double<2>, P>(task, own)
-}
+passes!(
+    /// In f32, stored in f32.
+    single, f32, super::registers::Single<4>, Sse2Single Avx2Single Avx512Single
+);
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn avx2<P: Physics>(task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
-    pass::<x86::Avx2, P>(task, own)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
-fn avx512<P: Physics>(task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
-    pass::<x86::Avx512, P>(task, own)
-}
+passes!(
+    /// In f64, stored in f32.
+    single_storage, f32, super::registers::Stored<2>, Sse2Stored Avx2Stored Avx512Stored
+);

@@ -149,7 +149,7 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
         let blocks: u64 = self.blocks.iter().map(super::block::Block::bytes).sum();
         let marks = self.setup.solids.len() + self.setup.fluid_of_cell.len();
         let surface = self.surface.as_ref().map_or(0, super::surface::Surface::bytes);
-        let sources = super::memory::sources_bytes(&self.layout);
+        let sources = super::memory::sources_bytes(&self.layout, E::PER_LINE);
         populations + (rim + numbers + marks) as u64 + blocks + self.layout.bytes() + sources + surface
     }
 }

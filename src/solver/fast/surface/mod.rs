@@ -218,7 +218,8 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         mass += surface.counts[0] as f64;
         mass += surface.parked.values().sum::<f64>();
         let cells = surface.counts[0] + surface.counts[1];
-        let Some((residual, bound)) = surface.books.close(mass, cells) else { return Ok(()) };
+        let rounding = self.setup.precision.rounding();
+        let Some((residual, bound)) = surface.books.close(mass, cells, rounding) else { return Ok(()) };
         if self.physics.is_mutant() {
             return Ok(());
         }
