@@ -6,11 +6,11 @@ use super::law::to_lattice;
 use super::scale::total_force;
 use crate::collision::{CollisionChoice, OddRate};
 use crate::scene::{
-    BodyForce as SceneForce, Boundary, ClampLimits, Collision, ExcessChoice, Measure, Operator, Probe,
-    RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
+    BodyForce as SceneForce, Boundary, ClampLimits, Collision, ExcessChoice, Measure, Operator,
+    PrecisionChoice, Probe, RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
 use crate::solver::setup::{
-    BodyForce, ExcessRule, Face, FreeSurface, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
+    BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
     YieldTreatment,
 };
 use crate::units::Units;
@@ -38,6 +38,11 @@ pub fn lower(scene: &Scene, units: &Units, cells: Cells) -> Setup {
         WallChoice::ViscosityIndependent => WallRule::ViscosityIndependent,
     };
     setup.stress_source = scene.numerics.stress_source;
+    setup.precision = match scene.numerics.precision {
+        PrecisionChoice::Double => Precision::Double,
+        PrecisionChoice::Single => Precision::Single,
+        PrecisionChoice::SingleStorage => Precision::SingleStorage,
+    };
     setup
 }
 

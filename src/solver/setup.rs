@@ -93,6 +93,20 @@ impl Precision {
         }
     }
 
+    /// Roundings, each of at most [`Self::rounding`] times the momentum of a cell, that it suffers in a step.
+    ///
+    /// Stored in f32: one. Computed in f32 as well: the two sums of five populations (2.3 together, partial
+    /// sums of u/6 to u/2), their difference, the half force, the division by ρ and ρ itself (4), ρu and the
+    /// half force put back (2), and the ten populations with c_x ≠ 0 rebuilt from half-sums of moments below
+    /// 2u/3 (4.7): thirteen.
+    #[must_use]
+    pub const fn roundings(self) -> f64 {
+        match self {
+            Self::SingleStorage => 1.0,
+            Self::Double | Self::Single => 13.0,
+        }
+    }
+
     /// Largest relative error of rounding a population once.
     #[must_use]
     pub const fn rounding(self) -> f64 {
