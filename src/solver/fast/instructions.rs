@@ -1,8 +1,12 @@
 //! Instruction sets: the same pass compiled for each, chosen when a run starts.
 
 use super::kernel::{Outcome, Own, Task, pass};
+use super::surface::InterfaceCell;
+use super::surface::exchange::Streaming;
+use super::surface::packed::{Near, stream_block};
 #[cfg(target_arch = "x86_64")]
 use super::x86;
+use crate::solver::books::Entries;
 use crate::solver::physics::Physics;
 
 /// Instruction sets the pass is compiled for.
@@ -105,4 +109,59 @@ fn avx2<P: Physics>(task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
 #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
 fn avx512<P: Physics>(task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
     pass::<x86::Avx512, P>(task, own)
+}
+
+/// Streams the interface cells of one block.
+pub fn exchange<P: Physics>(
+    chosen: Chosen,
+    streaming: &Streaming<P>,
+    near: &Near,
+    list: &mut [InterfaceCell],
+    entries: &mut Entries,
+) {
+    match chosen.get() {
+        Instructions::Baseline => exchange_baseline(streaming, near, list, entries),
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `Chosen` is only made of what the processor has.
+        Instructions::Avx2 => unsafe { exchange_avx2(streaming, near, list, entries) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Instructions::Avx512 => unsafe { exchange_avx512(streaming, near, list, entries) },
+        #[cfg(not(target_arch = "x86_64"))]
+        Instructions::Avx2 | Instructions::Avx512 => exchange_baseline(streaming, near, list, entries),
+    }
+}
+
+fn exchange_baseline<P: Physics>(
+    streaming: &Streaming<P>,
+    near: &Near,
+    list: &mut [InterfaceCell],
+    entries: &mut Entries,
+) {
+    #[cfg(target_arch = "x86_64")]
+    stream_block::<x86::Sse2, P>(streaming, near, list, entries);
+    #[cfg(not(target_arch = "x86_64"))]
+    stream_block::<super::registers::Double<2>, P>(streaming, near, list, entries);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn exchange_avx2<P: Physics>(
+    streaming: &Streaming<P>,
+    near: &Near,
+    list: &mut [InterfaceCell],
+    entries: &mut Entries,
+) {
+    stream_block::<x86::Avx2, P>(streaming, near, list, entries);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
+fn exchange_avx512<P: Physics>(
+    streaming: &Streaming<P>,
+    near: &Near,
+    list: &mut [InterfaceCell],
+    entries: &mut Entries,
+) {
+    stream_block::<x86::Avx512, P>(streaming, near, list, entries);
 }
