@@ -1,6 +1,8 @@
 //! Instruction sets: the same pass compiled for each, chosen when a run starts.
 
+use super::block::{Block, Place};
 use super::kernel::{Outcome, Own, Task, pass};
+use super::rim::{Rim, WallTask, correct};
 use super::surface::InterfaceCell;
 use super::surface::exchange::Streaming;
 use super::surface::packed::{Near, stream_block};
@@ -164,4 +166,63 @@ fn exchange_avx512<P: Physics>(
     entries: &mut Entries,
 ) {
     stream_block::<x86::Avx512, P>(streaming, near, list, entries);
+}
+
+/// Wall corrections of one block, see [`correct`].
+pub fn walls<P: Physics>(
+    chosen: Chosen,
+    task: &WallTask<P>,
+    block: &Block,
+    rim: &mut [Rim],
+    force: &impl Fn(usize) -> Option<[f64; 3]>,
+    is_fluid: &impl Fn(Place) -> bool,
+) {
+    match chosen.get() {
+        Instructions::Baseline => walls_baseline(task, block, rim, force, is_fluid),
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `Chosen` is only made of what the processor has.
+        Instructions::Avx2 => unsafe { walls_avx2(task, block, rim, force, is_fluid) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Instructions::Avx512 => unsafe { walls_avx512(task, block, rim, force, is_fluid) },
+        #[cfg(not(target_arch = "x86_64"))]
+        Instructions::Avx2 | Instructions::Avx512 => walls_baseline(task, block, rim, force, is_fluid),
+    }
+}
+
+fn walls_baseline<P: Physics>(
+    task: &WallTask<P>,
+    block: &Block,
+    rim: &mut [Rim],
+    force: &impl Fn(usize) -> Option<[f64; 3]>,
+    is_fluid: &impl Fn(Place) -> bool,
+) {
+    #[cfg(target_arch = "x86_64")]
+    correct::<x86::Sse2, P>(task, block, rim, force, is_fluid);
+    #[cfg(not(target_arch = "x86_64"))]
+    correct::<super::registers::Double<2>, P>(task, block, rim, force, is_fluid);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn walls_avx2<P: Physics>(
+    task: &WallTask<P>,
+    block: &Block,
+    rim: &mut [Rim],
+    force: &impl Fn(usize) -> Option<[f64; 3]>,
+    is_fluid: &impl Fn(Place) -> bool,
+) {
+    correct::<x86::Avx2, P>(task, block, rim, force, is_fluid);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
+fn walls_avx512<P: Physics>(
+    task: &WallTask<P>,
+    block: &Block,
+    rim: &mut [Rim],
+    force: &impl Fn(usize) -> Option<[f64; 3]>,
+    is_fluid: &impl Fn(Place) -> bool,
+) {
+    correct::<x86::Avx512, P>(task, block, rim, force, is_fluid);
 }

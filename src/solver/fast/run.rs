@@ -9,7 +9,7 @@ use super::element::{Aligned, Element};
 use super::instructions::{self, Chosen};
 use super::kernel::{Outcome, Own, Task, block_len, index};
 use super::layout::{Layout, NONE};
-use super::rim::{Rim, WallTask, correct};
+use super::rim::{Rim, WallTask};
 use super::sources::Sources;
 use super::stage::{after, open_link, wall_link};
 use super::stores;
@@ -262,7 +262,8 @@ impl<P: Physics> FastRun<P> {
         let items = rim.iter_mut().enumerate().filter(|(_, rim)| !rim.is_empty()).collect();
         each(self.pool.as_ref(), items, |(number, rim): (usize, &mut Vec<Rim>)| {
             let force_of = |local| self.force_of(number, local, force);
-            correct(&task, &self.blocks[number], rim, force_of, |place| self.is_fluid(place));
+            let is_fluid = |place| self.is_fluid(place);
+            instructions::walls(self.chosen, &task, &self.blocks[number], rim, &force_of, &is_fluid);
         });
         self.rim = rim;
     }

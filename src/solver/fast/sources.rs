@@ -115,7 +115,12 @@ pub fn gather<R: Registers>(around: &Around<R::Element>, sources: &Sources, part
 /// Numbers that belong to cells, from where population `i` of part of an ordinary pack comes from; `fields`: one
 /// number per cell for each of the 27 blocks ([`Layout::around`]).
 #[inline(always)]
-pub fn gather_cells<R: Registers>(fields: &[&[f64]; 27], sources: &Sources, part: usize, i: usize) -> R::Pack {
+pub fn gather_cells<R: Registers>(
+    fields: &[&[f64]; 27],
+    sources: &Sources,
+    part: usize,
+    i: usize,
+) -> R::Pack {
     let (entry, at) = (sources.from[i].0 as usize, sources.cells[i] as usize + part);
     // Of the row: what lies before the pack and behind it.
     let before = sources.before as usize / Q + part;

@@ -212,7 +212,9 @@ impl<E: Element> Stage<E> {
                 break;
             };
             if class.fluid >> lane & 1 != 0 {
-                kept.f = std::array::from_fn(|i| self.populations[i][lane].to_f64());
+                for (f, column) in kept.f.iter_mut().zip(&self.populations) {
+                    *f = column[lane].to_f64();
+                }
             }
         }
     }

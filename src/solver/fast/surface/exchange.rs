@@ -10,10 +10,10 @@ use crate::lattice::{Q, opposite};
 use crate::solver::books::{CellEntries, Crossing, Entries};
 use crate::solver::conversion::touch;
 use crate::solver::fast::block::{Block, From, Link, numbers_around};
+use crate::solver::fast::instructions;
 use crate::solver::fast::kernel::{Task, index};
 use crate::solver::fast::layout::NONE;
 use crate::solver::fast::run::{FastRun, each};
-use crate::solver::fast::instructions;
 use crate::solver::fast::stage::{Around, after, density_at_wall, open_link, wall_link};
 use crate::solver::physics::Physics;
 
