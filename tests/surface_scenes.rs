@@ -161,7 +161,10 @@ fn erodible_bed_does_not_count_as_flow() {
     {
         if *x > 0.3 {
             let (b, d) = if recess(*x) { (0.0, 0.006) } else { (0.006, 0.0) };
-            assert!((bed - b).abs() < 1e-12 && (depth - d).abs() < 1e-12, "{x}: {bed} {depth}");
+            // The bed of 6 mm settles by half of 3fHΔt²/(ρΔx²) of its own depth, 0.02 · 6/143 at most.
+            let settled = 0.5 * 0.02 * (6.0 / 143.0) * d;
+            assert!((bed - b).abs() < 1e-12, "{x}: {bed}");
+            assert!(depth <= d + 1e-12 && depth >= d - settled - 1e-12, "{x}: {depth}");
         }
     }
 }

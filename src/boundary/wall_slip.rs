@@ -1,6 +1,7 @@
 //! The viscosity-independent wall \[B3\] and the residual force it needs.
 
 use crate::lane::Lane;
+use crate::lane::unroll::{directions, six, three};
 use crate::lattice::moments::density_excess;
 use crate::lattice::{CS2, Q, W};
 
@@ -20,7 +21,10 @@ use crate::lattice::{CS2, Q, W};
 /// Claims `poiseuille-newtonian-b3`, `poiseuille-wall-node-error`.
 #[inline(always)]
 pub fn curvature_velocity<L: Lane>(tangential: &[L; 3], tangent_fluidity: L) -> [L; 3] {
-    tangential.map(|f| f * (L::splat(1.0 / 8.0) * tangent_fluidity))
+    three(
+        #[inline(always)]
+        |a| tangential[a] * (L::splat(1.0 / 8.0) * tangent_fluidity),
+    )
 }
 
 /// The curvature velocity, at most γ̇/4 in magnitude.
@@ -43,7 +47,10 @@ pub fn limited_curvature<L: Lane>(velocity: &[L; 3], gamma_dot: L) -> [L; 3] {
     let most = L::splat(0.25) * gamma_dot;
     let excessive = most.less(speed);
     let scale = L::select(excessive, most / L::select(excessive, speed, L::one()), L::one());
-    velocity.map(|v| v * scale)
+    three(
+        #[inline(always)]
+        |a| velocity[a] * scale,
+    )
 }
 
 /// How much of the curvature term the odd departure of the cell carries: min(3/(8(τ⁺ − ½)), 2(τ⁻ − ½)).
@@ -90,12 +97,23 @@ pub fn local_curvature<L: Lane>(omega: L, odd_omega: L) -> L {
 /// Claims `poiseuille-newtonian-b3`, `resting-layer-creep`.
 #[inline(always)]
 pub fn link_correction<L: Lane>(excess: &[L; Q], is_wall: impl Fn(usize) -> bool) -> [L; Q] {
-    let hits: [L; Q] = std::array::from_fn(|i| if i > 0 && is_wall(i) { excess[i] } else { L::zero() });
+    let hits = directions(
+        #[inline(always)]
+        |i| if i > 0 && is_wall(i) { excess[i] } else { L::zero() },
+    );
     // Weights in units of 1/36, so that their sum does not depend on the order.
-    let parts = |i: usize| if i <= 6 { 2 } else { 1 };
-    let weight: i32 = (1..Q).filter(|&i| is_wall(i)).map(parts).sum();
+    let parts = |i: usize| if i <= 6 { 2_i32 } else { 1 };
+    let mut weight = 0;
+    for i in 1..Q {
+        if is_wall(i) {
+            weight += parts(i);
+        }
+    }
     let mean = density_excess(&hits) * L::splat(if weight > 0 { 36.0 / f64::from(weight) } else { 0.0 });
-    std::array::from_fn(|i| if i > 0 && is_wall(i) { excess[i] - L::splat(W[i]) * mean } else { L::zero() })
+    directions(
+        #[inline(always)]
+        |i| if i > 0 && is_wall(i) { excess[i] - L::splat(W[i]) * mean } else { L::zero() },
+    )
 }
 
 /// v − (v·n) n
@@ -106,9 +124,15 @@ pub fn link_correction<L: Lane>(excess: &[L; Q], is_wall: impl Fn(usize) -> bool
 /// Claim `poiseuille-newtonian-b3`.
 #[inline(always)]
 pub fn tangential<L: Lane>(v: &[L; 3], normal: &[f64; 3]) -> [L; 3] {
-    let n = normal.map(L::splat);
+    let n = three(
+        #[inline(always)]
+        |a| L::splat(normal[a]),
+    );
     let along = (v[0] * n[0] + v[1] * n[1]) + v[2] * n[2];
-    std::array::from_fn(|a| v[a] - along * n[a])
+    three(
+        #[inline(always)]
+        |a| v[a] - along * n[a],
+    )
 }
 
 /// ∂p from the densities of the two neighbours along one axis; one-sided where one is missing,
@@ -150,16 +174,19 @@ pub fn stress_source<L: Lane>(residual: &[L; 3], q: &[L; 6], excess_wanted: L, o
     let half = L::splat(0.5);
     let share = L::one() - (half + excess_wanted) * odd_omega;
     let share = L::select(L::zero().less(share), share, L::zero());
-    std::array::from_fn(|k| {
-        // Moment (b, a): Σ c_b² c_a f.
-        let [b, a] = THIRD[k];
-        let c = 3 - a - b;
-        let (own, other) = (q[pair(a, b)] * q[pair(a, b)], q[pair(a, c)] * q[pair(a, c)]);
-        let total = own + other;
-        let sheared = L::zero().less(total);
-        let weight = L::select(sheared, own / L::select(sheared, total, L::one()), L::zero());
-        L::splat(2.0 / 3.0) * ((weight * residual[a]) * share)
-    })
+    six(
+        #[inline(always)]
+        |k| {
+            // Moment (b, a): Σ c_b² c_a f.
+            let [b, a] = THIRD[k];
+            let c = 3 - a - b;
+            let (own, other) = (q[pair(a, b)] * q[pair(a, b)], q[pair(a, c)] * q[pair(a, c)]);
+            let total = own + other;
+            let sheared = L::zero().less(total);
+            let weight = L::select(sheared, own / L::select(sheared, total, L::one()), L::zero());
+            L::splat(2.0 / 3.0) * ((weight * residual[a]) * share)
+        },
+    )
 }
 
 #[cfg(test)]

@@ -27,6 +27,25 @@ pub fn wetted_share(neighbour: Kind, fill: f64, neighbour_fill: f64) -> f64 {
     }
 }
 
+/// Stands for φ of liquid in [`share_with`].
+pub const LIQUID: f64 = 2.0;
+
+/// Stands for φ of gas and solids in [`share_with`].
+pub const GAS: f64 = -1.0;
+
+/// [`wetted_share`] for lanes. `neighbour`: φ′, [`LIQUID`] or [`GAS`].
+///
+/// # Source
+/// As [`wetted_share`].
+/// # Verified by
+/// Test `exact_share_of_every_kind`.
+#[inline(always)]
+pub fn share_with<L: Lane>(fill: L, neighbour: L) -> L {
+    let partly = L::splat(0.5) * (fill + neighbour);
+    let wet = L::select(L::one().less(neighbour), L::one(), partly);
+    L::select(neighbour.less(L::zero()), L::zero(), wet)
+}
+
 /// Δm of one link: A (f_ī*(x + c_i) − f_i*(x)).
 ///
 /// # Arguments
@@ -37,7 +56,7 @@ pub fn wetted_share(neighbour: Kind, fill: f64, neighbour_fill: f64) -> f64 {
 /// Claim `dam-break-mass`; mutant `exchange-before-collision`.
 #[inline(always)]
 #[must_use]
-pub fn link_mass(share: f64, arriving: f64, leaving: f64) -> f64 {
+pub fn link_mass<L: Lane>(share: L, arriving: L, leaving: L) -> L {
     share * (arriving - leaving)
 }
 
@@ -60,4 +79,20 @@ pub fn gas_link<L: Lane>(leaving: L, i: usize, u: &[L; 3]) -> L {
     let cu = dot(i, u);
     let both = L::splat(W[i]) * (L::splat(9.0) * (cu * cu) - L::splat(3.0) * usq);
     both - leaving
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_share_of_every_kind() {
+        for fill in [0.0, 0.1, 0.7, 1.0] {
+            assert_eq!(share_with(fill, LIQUID), wetted_share(Kind::Liquid, fill, 1.0));
+            assert_eq!(share_with(fill, GAS), wetted_share(Kind::Gas, fill, 0.0));
+            for other in [0.0, 0.3, 1.0] {
+                assert_eq!(share_with(fill, other), wetted_share(Kind::Interface, fill, other));
+            }
+        }
+    }
 }

@@ -19,7 +19,9 @@ impl Sum {
     /// Adds a term; one that is not finite, or 2³⁶ and more, makes the sum NaN.
     #[inline(always)]
     pub fn add(&mut self, term: f64) {
-        self.add_times(term, 1);
+        if term != 0.0 {
+            self.add_times(term, 1);
+        }
     }
 
     /// Adds the same term `count` times.

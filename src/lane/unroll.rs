@@ -21,7 +21,7 @@ pub fn six<T>(f: impl Fn(usize) -> T) -> [T; 6] {
 
 /// `[f(0), …, f(18)]`: one entry per lattice direction.
 #[inline(always)]
-pub fn directions<T>(f: impl Fn(usize) -> T) -> [T; Q] {
+pub fn directions<T>(mut f: impl FnMut(usize) -> T) -> [T; Q] {
     [
         f(0),
         f(1),

@@ -5,9 +5,11 @@ use super::initial::initial_flow;
 use super::law::to_lattice;
 use super::scale::total_force;
 use crate::collision::{CollisionChoice, OddRate};
+use crate::free_surface::hydrostatic;
 use crate::scene::{
-    BodyForce as SceneForce, Boundary, ClampLimits, Collision, ExcessChoice, Measure, Operator,
-    PrecisionChoice, Probe, RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
+    BodyForce as SceneForce, Boundary, ClampLimits, Collision, ExcessChoice, InitialPressure, Measure,
+    Operator, PrecisionChoice, Probe, RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice,
+    YieldChoice,
 };
 use crate::solver::setup::{
     BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
@@ -17,11 +19,16 @@ use crate::units::Units;
 
 /// The set-up of a scene.
 #[must_use]
-pub fn lower(scene: &Scene, units: &Units, cells: Cells) -> Setup {
+pub fn lower(scene: &Scene, units: &Units, mut cells: Cells) -> Setup {
     let mut setup = Setup::periodic(cells.extents, to_lattice(&scene.fluid.rheology, units));
     setup.faces = scene.domain.boundaries.by_axis().map(|faces| faces.map(|face| lower_face(face, units)));
     setup.fluids.extend(scene.layers.iter().map(|layer| to_lattice(&layer.rheology, units)));
     setup.force = force(&total_force(scene), units);
+    let settled = scene.fluid.initial.as_ref().is_some_and(|i| i.pressure == InitialPressure::Settled);
+    if settled {
+        let is_solid = |cell: usize| cells.solids.get(cell).is_some_and(|&s| s != 0);
+        cells.fill = hydrostatic::settle(cells.extents, &cells.fill, is_solid, &setup.force.at(0));
+    }
     setup.initial = initial_flow(scene, units, &cells, &setup.force.at(0));
     if cells.pool.is_some() {
         setup.free_surface = Some(free_surface(scene.numerics.free_surface.unwrap_or_default(), cells.fill));

@@ -85,7 +85,10 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     row(
         f,
         "rough time",
-        format_args!("{} s on one thread, assuming 4 million updates per second", short(n.estimated_seconds)),
+        format_args!(
+            "{} s on one thread, assuming 10 million updates per second",
+            short(n.estimated_seconds)
+        ),
     )?;
     if !n.warnings.is_empty() {
         writeln!(f, "\nWarnings")?;

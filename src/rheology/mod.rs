@@ -41,6 +41,7 @@ pub trait Rheology: Clone + Send + Sync + 'static {
     fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L;
 
     /// Apparent dynamic viscosity σ(γ̇)/γ̇; infinite or undefined at γ̇ = 0 for yield-stress laws.
+    #[inline(always)]
     fn viscosity<L: Lane>(&self, gamma_dot: L) -> L {
         self.stress(gamma_dot) / gamma_dot
     }

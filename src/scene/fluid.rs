@@ -44,9 +44,13 @@ pub struct InitialFluid {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum InitialPressure {
-    /// That of the fluid at rest below its surface.
+    /// That of the fluid at rest below its surface. The fluid is compressed by its own weight and therefore
+    /// heavier than what was drawn, by half of 3fHΔt²/(ρΔx²).
     #[default]
     Hydrostatic,
+    /// The same, below a surface that is lowered, column by column, until the mass is what was drawn. For fluid
+    /// that flows out of its reservoir: the thin flow it becomes then has the right volume, whatever the time step.
+    Settled,
     /// That of the air: for fluid that falls freely from the start.
     Uniform,
 }

@@ -131,12 +131,21 @@ impl CellEntries {
     /// Hands the sums of the cell over.
     #[inline]
     pub fn close(&self, entries: &mut Entries) {
-        if self.touched {
-            entries.outflow.add(self.outflow);
-            entries.from_walls.add(self.from_walls);
-            entries.from_faces.add(&self.from_faces);
-            entries.from_solids.add(&self.from_solids);
-            entries.from_gas.add(&self.from_gas);
+        if !self.touched {
+            return;
+        }
+        entries.outflow.add(self.outflow);
+        entries.from_walls.add(self.from_walls);
+        // Most cells touch one kind of neighbour; zeros change no sum.
+        let vectors = [
+            (&self.from_faces, &mut entries.from_faces),
+            (&self.from_solids, &mut entries.from_solids),
+            (&self.from_gas, &mut entries.from_gas),
+        ];
+        for (own, sum) in vectors {
+            if *own != [0.0; 3] {
+                sum.add(own);
+            }
         }
     }
 }

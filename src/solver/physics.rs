@@ -64,7 +64,7 @@ pub trait Physics: Clone + Send + Sync + 'static {
     /// Δm of one link \[F1\]. `before()`: the two populations before collision, for the wrong form
     /// that uses them.
     #[inline(always)]
-    fn link_mass(&self, share: f64, arriving: f64, leaving: f64, before: impl Fn() -> [f64; 2]) -> f64 {
+    fn link_mass<L: Lane>(&self, share: L, arriving: L, leaving: L, before: impl Fn() -> [L; 2]) -> L {
         let _ = before;
         exchange::link_mass(share, arriving, leaving)
     }
@@ -72,7 +72,7 @@ pub trait Physics: Clone + Send + Sync + 'static {
     /// Population that the gas sends back along −c_i \[F2\]. `behind()`: what the cell at x − c_i
     /// sends along c_i, for the wrong form that reconstructs there.
     #[inline(always)]
-    fn gas_link(&self, leaving: f64, i: usize, u: &[f64; 3], behind: impl Fn() -> f64) -> f64 {
+    fn gas_link<L: Lane>(&self, leaving: L, i: usize, u: &[L; 3], behind: impl Fn() -> L) -> L {
         let _ = behind;
         exchange::gas_link(leaving, i, u)
     }

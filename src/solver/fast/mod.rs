@@ -25,7 +25,7 @@ use crate::solver::physics::{Physics, Standard};
 use crate::solver::run::{Backend, Run, StartError};
 use crate::solver::setup::{Precision, Setup};
 use element::Element;
-use instructions::{Chosen, Instructions, Pass};
+use instructions::{Chosen, Instructions, Passes};
 pub use run::FastRun;
 
 /// The fast backend.
@@ -49,7 +49,7 @@ impl Backend for Fast {
         match setup.precision {
             Precision::Double => double(setup, chosen),
             Precision::Single => single(setup, chosen),
-            Precision::SingleStorage => boxed(setup, any_law(setup), chosen, instructions::single_storage),
+            Precision::SingleStorage => boxed(setup, any_law(setup), chosen, Passes::STORED),
         }
     }
 }
@@ -60,17 +60,17 @@ fn double(setup: &Setup, chosen: Chosen) -> Result<Box<dyn Run>, StartError> {
     match (setup.collision, setup.fluids.as_slice()) {
         (CollisionChoice::CentralMoment(odd), &[Law::Newtonian { mu }]) => {
             let (laws, collision) = (vec![Newtonian { mu }], CentralMoment { odd });
-            boxed(setup, Standard { laws, treatment, collision }, chosen, instructions::double)
+            boxed(setup, Standard { laws, treatment, collision }, chosen, Passes::DOUBLE)
         }
         (CollisionChoice::CentralMoment(odd), &[Law::Bingham { sigma0, mu }]) => {
             let (laws, collision) = (vec![Bingham { sigma0, mu }], CentralMoment { odd });
-            boxed(setup, Standard { laws, treatment, collision }, chosen, instructions::double)
+            boxed(setup, Standard { laws, treatment, collision }, chosen, Passes::DOUBLE)
         }
         (CollisionChoice::CentralMoment(odd), &[Law::HerschelBulkley { sigma0, k, n }]) => {
             let (laws, collision) = (vec![HerschelBulkley::new(sigma0, k, n)], CentralMoment { odd });
-            boxed(setup, Standard { laws, treatment, collision }, chosen, instructions::double)
+            boxed(setup, Standard { laws, treatment, collision }, chosen, Passes::DOUBLE)
         }
-        _ => boxed(setup, any_law(setup), chosen, instructions::double),
+        _ => boxed(setup, any_law(setup), chosen, Passes::DOUBLE),
     }
 }
 
@@ -80,9 +80,9 @@ fn single(setup: &Setup, chosen: Chosen) -> Result<Box<dyn Run>, StartError> {
         (CollisionChoice::CentralMoment(odd), &[Law::Newtonian { mu }]) => {
             let (laws, collision) = (vec![Newtonian { mu }], CentralMoment { odd });
             let physics = Standard { laws, treatment: setup.yielding, collision };
-            boxed(setup, physics, chosen, instructions::single)
+            boxed(setup, physics, chosen, Passes::SINGLE)
         }
-        _ => boxed(setup, any_law(setup), chosen, instructions::single),
+        _ => boxed(setup, any_law(setup), chosen, Passes::SINGLE),
     }
 }
 
@@ -96,7 +96,7 @@ fn boxed<P: Physics, E: Element>(
     setup: &Setup,
     physics: P,
     chosen: Chosen,
-    pass: Pass<P, E>,
+    passes: Passes<P, E>,
 ) -> Result<Box<dyn Run>, StartError> {
-    Ok(Box::new(FastRun::start(setup, physics, chosen, pass)?))
+    Ok(Box::new(FastRun::start(setup, physics, chosen, passes)?))
 }

@@ -6,10 +6,10 @@ use rayon::prelude::*;
 
 use super::block::{Block, From, Place, Velocities, numbers_around};
 use super::element::{Aligned, Element};
-use super::instructions::{Chosen, Pass};
+use super::instructions::{self, Chosen, Passes};
 use super::kernel::{Outcome, Own, Task, block_len, index};
 use super::layout::{Layout, NONE};
-use super::rim::{Rim, WallTask, correct};
+use super::rim::{Rim, WallTask};
 use super::sources::Sources;
 use super::stage::{after, open_link, wall_link};
 use super::stores;
@@ -30,8 +30,8 @@ pub struct FastRun<P, E: Element = f64> {
     pub(super) setup: Setup,
     pub(super) physics: P,
     pub(super) chosen: Chosen,
-    /// The pass over one block, in the precision of the run.
-    pass: Pass<P, E>,
+    /// The passes over one block, in the precision of the run.
+    pub(super) passes: Passes<P, E>,
     pub(super) layout: Layout,
     pub(super) sources: Vec<Sources>,
     pub(super) velocities: Velocities,
@@ -60,7 +60,12 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     ///
     /// # Errors
     /// The setup is inconsistent, or asks for what this backend does not have.
-    pub fn start(setup: &Setup, physics: P, chosen: Chosen, pass: Pass<P, E>) -> Result<Self, StartError> {
+    pub fn start(
+        setup: &Setup,
+        physics: P,
+        chosen: Chosen,
+        passes: Passes<P, E>,
+    ) -> Result<Self, StartError> {
         crate::solver::check::check(setup)?;
         let unsupported = |feature| StartError::Unsupported { backend: "fast", feature };
         if setup.stress_source {
@@ -74,7 +79,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             setup: setup.clone(),
             physics,
             chosen,
-            pass,
+            passes,
             sources: Sources::all::<E>(&layout),
             layout,
             velocities: Velocities::default(),
@@ -234,9 +239,9 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 interface,
             })
             .collect();
-        let (chosen, pass) = (self.chosen, self.pass);
+        let (chosen, collide) = (self.chosen, self.passes.collide);
         let outcomes = each(self.pool.as_ref(), own, |mut own| {
-            let outcome = pass(chosen, &task, &mut own);
+            let outcome = collide(chosen, &task, &mut own);
             stores::fence();
             outcome
         });
@@ -262,7 +267,8 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let items = rim.iter_mut().enumerate().filter(|(_, rim)| !rim.is_empty()).collect();
         each(self.pool.as_ref(), items, |(number, rim): (usize, &mut Vec<Rim>)| {
             let force_of = |local| self.force_of(number, local, force);
-            correct(&task, &self.blocks[number], rim, force_of, |place| self.is_fluid(place));
+            let is_fluid = |place| self.is_fluid(place);
+            instructions::walls(self.chosen, &task, &self.blocks[number], rim, &force_of, &is_fluid);
         });
         self.rim = rim;
     }

@@ -14,6 +14,8 @@ use crate::lattice::{C, Q};
 #[derive(Clone, Debug)]
 pub struct Sources {
     from: [(u32, u32); Q],
+    /// The same place in an array with one number per cell.
+    cells: [u32; Q],
     /// Numbers between the beginning of the row and the pack, and between the pack and the last one of the row.
     before: u32,
     behind: u32,
@@ -39,8 +41,9 @@ impl Sources {
             let (entry, first) = layout.upstream_row(local, i);
             (entry as u32, index::<E>(first + x, i) as u32)
         });
+        let cells = directions(|i| (layout.upstream_row(local, i).1 + x) as u32);
         let far = (0..Q as u8).filter(|&i| from[usize::from(i)].0 != 13).collect();
-        Self { from, before: (x * Q) as u32, behind: ((row - x - E::PER_LINE) * Q) as u32, far }
+        Self { from, cells, before: (x * Q) as u32, behind: ((row - x - E::PER_LINE) * Q) as u32, far }
     }
 
     /// Asks for the lines of other blocks long before they are used: they come from memory, without a pattern
@@ -107,4 +110,39 @@ pub fn gather<R: Registers>(around: &Around<R::Element>, sources: &Sources, part
             }
         },
     )
+}
+
+/// Numbers that belong to cells, from where population `i` of part of an ordinary pack comes from; `fields`: one
+/// number per cell for each of the 27 blocks ([`Layout::around`]).
+#[inline(always)]
+pub fn gather_cells<R: Registers>(
+    fields: &[&[f64]; 27],
+    sources: &Sources,
+    part: usize,
+    i: usize,
+) -> R::Pack {
+    let (entry, at) = (sources.from[i].0 as usize, sources.cells[i] as usize + part);
+    // Of the row: what lies before the pack and behind it.
+    let before = sources.before as usize / Q + part;
+    let behind = sources.behind as usize / Q + R::Element::PER_LINE - part - R::WIDTH;
+    let pack = R::load_wide(&fields[entry][at..]);
+    match C[i][0] {
+        1 => {
+            let previous = if before > 0 {
+                R::load_wide(&fields[entry][at - R::WIDTH..])
+            } else {
+                R::load_wide(&fields[entry - 1][at + behind..])
+            };
+            R::shifted_up(previous, pack)
+        }
+        -1 => {
+            let next = if behind > 0 {
+                R::load_wide(&fields[entry][at + R::WIDTH..])
+            } else {
+                R::load_wide(&fields[entry + 1][at - before..])
+            };
+            R::shifted_down(pack, next)
+        }
+        _ => pack,
+    }
 }

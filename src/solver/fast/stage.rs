@@ -153,8 +153,10 @@ impl<E: Element> Stage<E> {
         class: &Class,
         local: usize,
     ) {
-        let mut rho = (usize::MAX, 1.0);
-        for link in block.links_of(local / E::PER_LINE) {
+        let pack = local / E::PER_LINE;
+        // With a surface the links have been booked, and their values kept.
+        let returned = task.surface.as_ref().map(|surface| &surface.returned[own.number]);
+        for (link, place) in block.links_of(pack).iter().zip(block.first_link[pack] as usize..) {
             let at = usize::from(link.local);
             let lane = at - local;
             if (class.fluid & !class.kept) >> lane & 1 == 0 {
@@ -165,12 +167,13 @@ impl<E: Element> Stage<E> {
                     let number = task.layout.block_at(cell.block as usize);
                     task.old[number as usize].get()[index::<E>(cell.local as usize, usize::from(direction))]
                 }
+                From::Wall { .. } | From::Open if returned.is_some() => {
+                    E::from_f64(returned.map_or(0.0, |values| values[place]))
+                }
                 From::Wall { velocity, .. } => {
-                    if rho.0 != at {
-                        rho = (at, 1.0 + density_excess(&after(task, own.number, at)));
-                    }
                     let u = &task.velocities[velocity as usize];
-                    E::from_f64(wall_link(task, own.number, own.rim, link, rho.1, u))
+                    let rho = density_at_wall(task, own.number, at, u);
+                    E::from_f64(wall_link(task, own.number, own.rim, link, rho, u))
                 }
                 From::Open => E::from_f64(open_link(task, own.number, own.rim, link)),
             };
@@ -209,7 +212,9 @@ impl<E: Element> Stage<E> {
                 break;
             };
             if class.fluid >> lane & 1 != 0 {
-                kept.f = std::array::from_fn(|i| self.populations[i][lane].to_f64());
+                for (f, column) in kept.f.iter_mut().zip(&self.populations) {
+                    *f = column[lane].to_f64();
+                }
             }
         }
     }
@@ -281,6 +286,17 @@ fn gather_row<E: Element>(layout: &Layout, around: &Around<E>, i: usize, local: 
 pub fn after<P, E: Element>(task: &Task<P, E>, number: usize, local: usize) -> [f64; Q] {
     let own = task.old[number].get();
     std::array::from_fn(|i| own[index::<E>(local, i)].to_f64())
+}
+
+/// ρ of a cell after the last collision, for [`wall_link`]; 1 where the wall rests and ρ is multiplied by zero.
+#[inline]
+pub fn density_at_wall<P, E: Element>(
+    task: &Task<P, E>,
+    number: usize,
+    local: usize,
+    velocity: &[f64; 3],
+) -> f64 {
+    if *velocity == [0.0; 3] { 1.0 } else { 1.0 + density_excess(&after(task, number, local)) }
 }
 
 /// What a wall sends back along a link \[B1\] \[B3\], as it is stored.

@@ -4,6 +4,7 @@ use crate::boundary::links::{BoundaryCell, CellKind, Links, Source};
 use crate::boundary::wall_slip::{
     limited_curvature, link_correction, local_curvature, pressure_slope, stress_source, tangential,
 };
+use crate::lane::Lane;
 use crate::lattice::moments::{Moments, add_third, density_excess, deviator};
 use crate::lattice::{C, Q, opposite};
 use crate::rheology::relaxation::shear_rate_of_omega;
@@ -14,11 +15,11 @@ use crate::solver::run::Runaway;
 pub type Cell = [f64; Q];
 
 /// A cell's moments and its even relaxation rate.
-pub struct State {
+pub struct State<L = f64> {
     /// Moments before collision.
-    pub m: Moments<f64>,
+    pub m: Moments<L>,
     /// ω⁺.
-    pub omega: f64,
+    pub omega: L,
 }
 
 /// Moments and ω⁺ of a cell before collision \[L4\] \[Y1\]–\[Y4\].
@@ -67,9 +68,9 @@ pub fn residual_force(
 
 /// What a wall correction depends on besides the state of its cell.
 #[derive(Clone, Copy, Debug)]
-pub struct Situation {
+pub struct Situation<L = f64> {
     /// F − ∇p of the cell.
-    pub residual: [f64; 3],
+    pub residual: [L; 3],
     /// Number of the fluid in it.
     pub fluid: u8,
     /// Whether \[K6\] acts.
@@ -81,47 +82,56 @@ pub struct Situation {
 /// What the viscosity-independent wall subtracts from the populations leaving a boundary cell \[B3\].
 ///
 /// `walls`: bit i is set where the link along c_i hits a wall. `normal`: unit vector towards it.
-#[inline(never)]
-pub fn wall_correction<P: Physics>(
+#[inline(always)]
+pub fn wall_correction<L: Lane, P: Physics>(
     physics: &P,
     walls: u32,
     normal: &[f64; 3],
-    h: &Cell,
-    state: &State,
-    situation: &Situation,
-) -> Cell {
+    h: &[L; Q],
+    state: &State<L>,
+    situation: &Situation<L>,
+) -> [L; Q] {
     let Situation { residual, fluid, sourced, limited } = situation;
-    let is_wall = |i: usize| walls >> i & 1 != 0;
     let rho = state.m.rho;
     let odd_omega = physics.odd_omega(state.omega);
     let fluidity = physics.tangent_fluidity(*fluid, rho, state.omega, physics.stress_magnitude(&state.m));
     let local = local_curvature(state.omega, odd_omega);
-    let mut excess = [0.0; Q];
+    let mut excess = [L::zero(); Q];
     if *sourced {
         add_stress_source(physics, &mut excess, state, residual);
     }
-    let keep = (2.0 - odd_omega) - odd_omega * local;
+    let keep = (L::splat(2.0) - odd_omega) - odd_omega * local;
     let departure = physics.odd_departure(h, &state.m);
     for i in 1..Q {
-        excess[i] += keep * departure[i];
+        excess[i] = excess[i] + keep * departure[i];
     }
-    let mut correction = link_correction(&excess, is_wall);
+    let mut correction = link_correction(
+        &excess,
+        #[inline(always)]
+        |i| walls >> i & 1 != 0,
+    );
     let along = tangential(residual, normal);
-    let mut curved = physics.curvature_velocity(&along, fluidity - 8.0 * local / rho);
+    let mut curved = physics.curvature_velocity(&along, fluidity - L::splat(8.0) * local / rho);
     if *limited {
         let gamma_dot = shear_rate_of_omega(rho, state.omega, physics.stress_magnitude(&state.m));
         curved = limited_curvature(&curved, gamma_dot);
     }
     for i in 1..Q {
-        if is_wall(i) {
-            correction[i] -= physics.wall(0.0, i, rho, &curved);
+        if walls >> i & 1 != 0 {
+            correction[i] = correction[i] - physics.wall(L::zero(), i, rho, &curved);
         }
     }
     correction
 }
 
 /// Adds the source of \[K6\] to post-collision populations.
-pub fn add_stress_source<P: Physics>(physics: &P, post: &mut Cell, state: &State, residual: &[f64; 3]) {
+#[inline(always)]
+pub fn add_stress_source<L: Lane, P: Physics>(
+    physics: &P,
+    post: &mut [L; Q],
+    state: &State<L>,
+    residual: &[L; 3],
+) {
     let wanted = physics.wanted_odd_excess(state.omega);
     let odd_omega = physics.odd_omega(state.omega);
     add_third(post, &stress_source(residual, &deviator(&state.m.q), wanted, odd_omega));

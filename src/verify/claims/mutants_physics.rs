@@ -171,7 +171,7 @@ impl Physics for Wrong {
         }
     }
 
-    fn link_mass(&self, share: f64, arriving: f64, leaving: f64, before: impl Fn() -> [f64; 2]) -> f64 {
+    fn link_mass<L: Lane>(&self, share: L, arriving: L, leaving: L, before: impl Fn() -> [L; 2]) -> L {
         if self.mistake == Mistake::ExchangeBeforeCollision {
             let [arriving, leaving] = before();
             share * (arriving - leaving)
@@ -180,7 +180,7 @@ impl Physics for Wrong {
         }
     }
 
-    fn gas_link(&self, leaving: f64, i: usize, u: &[f64; 3], behind: impl Fn() -> f64) -> f64 {
+    fn gas_link<L: Lane>(&self, leaving: L, i: usize, u: &[L; 3], behind: impl Fn() -> L) -> L {
         let wrong = self.mistake == Mistake::ReconstructionAtNeighbour;
         self.right.gas_link(if wrong { behind() } else { leaving }, i, u, &behind)
     }

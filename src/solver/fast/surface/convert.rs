@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::InterfaceCell;
 use crate::boundary::links::{Source, resolve};
 use crate::free_surface::Kind;
+use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::free_surface::marks::{Mark, Touches, mark};
 use crate::lattice::Q;
 use crate::lattice::moments::{density_excess, moments};
@@ -134,7 +135,10 @@ impl<P: Physics, E: Element> Cells for FastRun<P, E> {
     }
     fn fill(&self, cell: usize) -> f64 {
         match (self.find(cell), &self.surface) {
-            (Some((number, local)), Some(surface)) => surface.fill[number][local],
+            (Some((number, local)), Some(surface)) => {
+                // Cells that have just become interface still hold what they were.
+                surface.fill[number][local].clamp(0.0, 1.0)
+            }
             _ => 0.0,
         }
     }
@@ -149,10 +153,10 @@ impl<P: Physics, E: Element> Cells for FastRun<P, E> {
     }
     fn fill_up(&mut self, cell: usize) {
         // Its record stays for one collision: what came from the gas is nowhere else.
-        self.change(cell, Kind::Liquid, Some(1.0), None);
+        self.change(cell, Kind::Liquid, Some(LIQUID), None);
     }
     fn empty(&mut self, cell: usize) {
-        self.change(cell, Kind::Gas, Some(0.0), None);
+        self.change(cell, Kind::Gas, Some(GAS), None);
     }
     fn expose(&mut self, cell: usize, mass: f64) {
         let f = self.populations(cell);

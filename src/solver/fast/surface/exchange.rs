@@ -1,5 +1,6 @@
 //! Streaming and mass exchange of interface cells \[F1\] \[F2\], and what the links bring in \[F5\].
 
+use super::packed::Near;
 use super::{InterfaceCell, Surface};
 use crate::boundary::links::Source;
 use crate::free_surface::Kind;
@@ -13,7 +14,7 @@ use crate::solver::fast::element::Element;
 use crate::solver::fast::kernel::{Task, index};
 use crate::solver::fast::layout::NONE;
 use crate::solver::fast::run::{FastRun, each};
-use crate::solver::fast::stage::{after, open_link, wall_link};
+use crate::solver::fast::stage::{Around, after, density_at_wall, open_link, wall_link};
 use crate::solver::physics::Physics;
 
 /// What a block brought in.
@@ -23,11 +24,11 @@ struct Brought {
 }
 
 /// A block while its interface cells stream.
-struct Streaming<'a, P, E> {
-    task: &'a Task<'a, P, E>,
+pub struct Streaming<'a, P, E> {
+    pub(super) task: &'a Task<'a, P, E>,
     surface: &'a Surface,
     rim: &'a [super::super::rim::Rim],
-    block: &'a Block,
+    pub(super) block: &'a Block,
     number: usize,
     /// Block numbers around it.
     around: [u32; 27],
@@ -38,11 +39,12 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     pub(super) fn exchange(&mut self, force: &[f64; 3]) {
         let Some(surface) = &mut self.surface else { return };
         let mut interface = std::mem::take(&mut surface.interface);
+        let mut returned = std::mem::take(&mut surface.returned);
         let solids = surface.loads.len();
         let task = self.task(*force);
         let Some(surface) = &self.surface else { return };
-        let items: Vec<_> = interface.iter_mut().enumerate().collect();
-        let brought = each(self.pool.as_ref(), items, |(number, list)| {
+        let items: Vec<_> = interface.iter_mut().zip(&mut returned).enumerate().collect();
+        let brought = each(self.pool.as_ref(), items, |(number, (list, returned))| {
             let mut brought = Brought { entries: Entries::new(solids), force: VectorSum::default() };
             let block = &self.blocks[number];
             if self.old[number].is_empty() || (list.is_empty() && block.links.is_empty()) {
@@ -51,16 +53,24 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             let around = numbers_around(&self.layout, block.place);
             let rim = &self.rim[number];
             let streaming = Streaming { task: &task, surface, rim, block, number, around };
-            for cell in list.iter_mut() {
+            for cell in list.iter() {
                 let local = usize::from(cell.local);
                 brought.force.add(&surface.view().force_of(number, local, force));
-                streaming.stream(cell, &mut brought.entries);
             }
-            streaming.book_liquid(&mut brought.entries);
+            if !list.is_empty() {
+                let fill = around.map(|n| match n {
+                    NONE => surface.nothing.as_slice(),
+                    n => surface.fill[n as usize].as_slice(),
+                });
+                let near = Near { populations: Around::new(&task, number), fill };
+                (self.passes.exchange)(self.chosen, &streaming, &near, list, &mut brought.entries);
+            }
+            streaming.book_liquid(returned, &mut brought.entries);
             brought
         });
         let Some(surface) = &mut self.surface else { return };
         surface.interface = interface;
+        surface.returned = returned;
         let mut entries = Entries::new(solids);
         for part in &brought {
             entries.merge(&part.entries);
@@ -73,11 +83,13 @@ impl<P: Physics, E: Element> FastRun<P, E> {
 
 impl<P: Physics, E: Element> Streaming<'_, P, E> {
     /// Populations, Δm and neighbours of an interface cell.
-    fn stream(&self, cell: &mut InterfaceCell, entries: &mut Entries) {
+    #[inline(never)]
+    pub(super) fn stream(&self, cell: &mut InterfaceCell, entries: &mut Entries) {
         let local = usize::from(cell.local);
         let physics = self.task.physics;
         let own = after(self.task, self.number, local);
         let rho = 1.0 + density_excess(&own);
+        // An interface cell's own φ; that of a liquid neighbour is not used.
         let fill = self.surface.fill[self.number][local];
         let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
         let mut arrived = own;
@@ -150,29 +162,32 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         }
     }
 
-    /// Books the irregular links of liquid cells.
-    fn book_liquid(&self, entries: &mut Entries) {
+    /// Books the irregular links of liquid cells; `returned`: what comes back from walls and open faces, by
+    /// link.
+    fn book_liquid(&self, returned: &mut [f64], entries: &mut Entries) {
         let mut links = self.block.links.as_slice();
+        let mut returned = returned;
         while let Some(first) = links.first() {
             let same = links.iter().take_while(|link| link.local == first.local).count();
             let (cell, rest) = links.split_at(same);
-            links = rest;
+            let (back, later) = returned.split_at_mut(same);
+            (links, returned) = (rest, later);
             let local = usize::from(first.local);
             if self.surface.kinds[self.number][local] == Kind::Liquid {
-                self.book_cell(local, cell, entries);
+                self.book_cell(local, cell, back, entries);
             }
         }
     }
 
-    fn book_cell(&self, local: usize, links: &[Link], entries: &mut Entries) {
-        let own = after(self.task, self.number, local);
-        let rho = 1.0 + density_excess(&own);
+    fn book_cell(&self, local: usize, links: &[Link], returned: &mut [f64], entries: &mut Entries) {
+        let own = self.task.old[self.number].get();
         let mut booked = CellEntries::default();
-        for link in links {
+        for (link, back) in links.iter().zip(returned) {
             let i = usize::from(link.direction);
             let (arrived, source) = match self.end(local, i, Some(link)) {
                 End::Wall { velocity, body, link } => {
                     let u = &self.task.velocities[velocity as usize];
+                    let rho = density_at_wall(self.task, self.number, local, u);
                     let arrived = wall_link(self.task, self.number, self.rim, link, rho, u);
                     (arrived, Source::Wall { velocity: *u, body })
                 }
@@ -184,7 +199,8 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                     (arrived, Source::Cell { cell: 0, direction: direction as u8 })
                 }
             };
-            let leaving = own[opposite(i)];
+            *back = arrived;
+            let leaving = own[index::<E>(local, opposite(i))].to_f64();
             let crossing = Crossing { i, leaving, arrived, share: 1.0, liquid: true };
             booked.link(&crossing, &source, false, entries);
         }

@@ -6,7 +6,8 @@
 //! before.
 
 mod convert;
-mod exchange;
+pub mod exchange;
+pub mod packed;
 mod report;
 mod start;
 
@@ -61,8 +62,10 @@ pub struct Lanes {
 pub struct SurfaceView<'a> {
     /// By block and pack.
     pub lanes: &'a [Vec<Lanes>],
-    /// φ, by block and cell.
+    /// φ of interface cells, by block and cell.
     fill: &'a [Vec<f64>],
+    /// What walls and open faces send back to liquid cells, by block and irregular link.
+    pub returned: &'a [Vec<f64>],
     rule: SurfaceForce,
 }
 
@@ -81,7 +84,8 @@ pub struct Surface {
     pub(super) rules: FreeSurface,
     /// By block and cell.
     pub(super) kinds: Vec<Vec<Kind>>,
-    /// φ, by block and cell: 1 in liquid, 0 in gas.
+    /// φ of interface cells, by block and cell; [`exchange::LIQUID`](crate::free_surface::exchange::LIQUID) in
+    /// liquid, [`exchange::GAS`](crate::free_surface::exchange::GAS) elsewhere.
     pub(super) fill: Vec<Vec<f64>>,
     /// By block and pack.
     pub(super) lanes: Vec<Vec<Lanes>>,
@@ -95,6 +99,10 @@ pub struct Surface {
     pub(super) counts: [u64; 2],
     /// Numbers of blocks that were given up.
     pub(super) free: Vec<usize>,
+    /// What walls and open faces sent back to liquid cells in the last step, by block and irregular link.
+    pub(super) returned: Vec<Vec<f64>>,
+    /// `fill` where there is no block.
+    pub(super) nothing: Vec<f64>,
     /// Whether a step waits for its ledger to be closed.
     pub(super) open: bool,
 }
@@ -103,7 +111,7 @@ impl Surface {
     /// What the passes read.
     #[must_use]
     pub fn view(&self) -> SurfaceView<'_> {
-        SurfaceView { lanes: &self.lanes, fill: &self.fill, rule: self.rules.force }
+        SurfaceView { lanes: &self.lanes, fill: &self.fill, returned: &self.returned, rule: self.rules.force }
     }
 
     /// Body force of a cell \[F3\]; `None` where it holds no fluid.
@@ -177,7 +185,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 self.layout.set_block(self.blocks[number].place, super::layout::NONE);
                 self.old[number] = Default::default();
                 self.new[number] = Default::default();
-                for list in [&mut self.density, &mut self.lag, &mut surface.fill] {
+                for list in [&mut self.density, &mut self.lag, &mut surface.fill, &mut surface.returned] {
                     list[number] = Vec::new();
                 }
                 self.rim[number] = Vec::new();

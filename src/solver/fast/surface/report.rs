@@ -68,7 +68,8 @@ impl Surface {
         let lanes: usize = self.lanes.iter().map(|lanes| size_of_val(lanes.as_slice())).sum();
         let records: usize =
             self.interface.iter().map(|list| list.capacity() * size_of::<super::InterfaceCell>()).sum();
-        (kinds + fill + lanes + records) as u64
+        let returned: usize = self.returned.iter().map(|links| size_of_val(links.as_slice())).sum();
+        (kinds + fill + lanes + records + returned) as u64
     }
 }
 

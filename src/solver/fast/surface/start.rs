@@ -2,6 +2,7 @@
 
 use super::{Lanes, Surface};
 use crate::boundary::links::{Source, resolve};
+use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
@@ -64,6 +65,8 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             loads: vec![Load::default(); loads],
             counts: [0; 2],
             free: Vec::new(),
+            returned: Vec::new(),
+            nothing: vec![GAS; self.layout.block_cells()],
             open: false,
             rules: rules.clone(),
         });
@@ -88,9 +91,10 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let kinds = kinds.collect();
         let surface = self.surface.as_mut()?;
         put(&mut surface.kinds, number, kinds);
-        put(&mut surface.fill, number, vec![0.0; cells]);
+        put(&mut surface.fill, number, vec![GAS; cells]);
         put(&mut surface.lanes, number, vec![Lanes::default(); cells / E::PER_LINE]);
         put(&mut surface.interface, number, Vec::new());
+        put(&mut surface.returned, number, vec![0.0; self.blocks[number].links.len()]);
         Some(number)
     }
 
@@ -117,7 +121,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 continue;
             }
             surface.kinds[number][local] = kinds[cell];
-            surface.fill[number][local] = fill(cell);
+            surface.fill[number][local] = if kinds[cell] == Kind::Liquid { LIQUID } else { fill(cell) };
             let point = match &setup.initial {
                 Some(flow) => flow(at),
                 None => FlowPoint { density: 1.0 + excess[cell], ..REST },

@@ -1,6 +1,7 @@
 //! The slope flows of 004 Ch. 5: a reservoir of Herschel-Bulkley fluid released on an incline, with and
 //! without an erodible bed, set up in lattice units.
 
+use crate::free_surface::hydrostatic;
 use crate::rheology::Law;
 use crate::solver::run::{Fields, Run};
 use crate::solver::setup::{BodyForce, Face, FreeSurface, Setup, SolidMotion, SurfaceForce, YieldTreatment};
@@ -63,12 +64,14 @@ pub struct Grid {
     pub compression: f64,
     /// Force rule in interface cells.
     pub force: SurfaceForce,
+    /// Whether the reservoir starts with the mass that was drawn ([`hydrostatic::settle`]).
+    pub settled: bool,
 }
 
 impl Grid {
     /// The design's time step at a spacing in mm.
     pub const fn millimetres(dx: f64) -> Self {
-        Self { dx: dx * 1e-3, compression: 0.02, force: SurfaceForce::ByFill }
+        Self { dx: dx * 1e-3, compression: 0.02, force: SurfaceForce::ByFill, settled: true }
     }
 }
 
@@ -134,7 +137,12 @@ impl Case {
             let [i, _, k] = setup.coordinates(cell);
             if k < bed_cells { 1.0 } else { self.fill(i as f64 * dx, (k - bed_cells) as f64 * dx, dx) }
         });
-        let mut surface = FreeSurface::new(fill.collect());
+        let mut fill: Vec<f64> = fill.collect();
+        if grid.settled {
+            let is_solid = |cell: usize| setup.is_solid(cell);
+            fill = hydrostatic::settle(setup.extents, &fill, is_solid, &setup.force.at(0));
+        }
+        let mut surface = FreeSurface::new(fill);
         surface.force = grid.force;
         setup.free_surface = Some(surface);
         Prepared { setup, units, bed_cells }
