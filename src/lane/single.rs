@@ -1,7 +1,7 @@
 //! Numbers in single precision as lanes: half the bytes of `f64`, 24 bits of mantissa.
 //!
-//! + − × ÷ and √ round to `f32`; whatever takes powers of two or tables is written for `f64` and is
-//! computed there, then rounded once more.
+//! Sums, products, quotients and roots round to `f32`; whatever takes powers of two or tables is written
+//! for `f64` and is computed there, then rounded once more.
 
 use std::array::from_fn;
 use std::ops::{Add, Div, Mul, Neg, Sub};

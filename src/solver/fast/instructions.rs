@@ -79,13 +79,19 @@ impl Chosen {
     }
 }
 
+/// A collision of one block.
+pub type Collide<P, E> = fn(Chosen, &Task<P, E>, &mut Own<E>) -> Outcome;
+
+/// An exchange of one block: all its interface cells.
+pub type Exchange<P, E> = fn(Chosen, &Streaming<P, E>, &Near<E>, &mut [InterfaceCell], &mut Entries);
+
 /// The passes over one block of a run, in its precision.
 #[derive(Clone, Copy)]
 pub struct Passes<P, E> {
     /// Gather, collide, store: see [`pass`].
-    pub collide: fn(Chosen, &Task<P, E>, &mut Own<E>) -> Outcome,
+    pub collide: Collide<P, E>,
     /// Streams the interface cells: see [`stream_block`].
-    pub exchange: fn(Chosen, &Streaming<P, E>, &Near<E>, &mut [InterfaceCell], &mut Entries),
+    pub exchange: Exchange<P, E>,
 }
 
 /// A function of registers, compiled for every instruction set: `$run` with portable registers, then those

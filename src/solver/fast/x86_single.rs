@@ -59,6 +59,15 @@ macro_rules! register {
                 // SAFETY: see the head of the file.
                 unsafe { [$half($low), $half($high)] }
             }
+            /// A function in f64, rounded.
+            #[inline(always)]
+            fn by_halves(self, f: impl Fn($half) -> $half) -> Self {
+                let mut halves = self.halves();
+                for half in &mut halves {
+                    *half = f(*half);
+                }
+                Self::join(halves)
+            }
             /// Rounds.
             #[inline(always)]
             fn join([low, high]: [$half; 2]) -> Self {
@@ -107,23 +116,24 @@ macro_rules! register {
             }
             #[inline(always)]
             fn exp(self) -> Self {
-                let [x, y] = self.halves();
-                Self::join([x.exp(), y.exp()])
+                self.by_halves(#[inline(always)] |x| x.exp())
             }
             #[inline(always)]
             fn exp_m1(self) -> Self {
-                let [x, y] = self.halves();
-                Self::join([x.exp_m1(), y.exp_m1()])
+                self.by_halves(#[inline(always)] |x| x.exp_m1())
             }
             #[inline(always)]
             fn ln(self) -> Self {
-                let [x, y] = self.halves();
-                Self::join([x.ln(), y.ln()])
+                self.by_halves(#[inline(always)] |x| x.ln())
             }
             #[inline(always)]
             fn in_double<F: OfTwo>(f: &F, a: Self, b: Self) -> Self {
-                let ([a, c], [b, d]) = (a.halves(), b.halves());
-                Self::join([f.at(a, b), f.at(c, d)])
+                let (mut a, b) = (a.halves(), b.halves());
+                // Not written out twice: it is long, and is compiled for every kind of register.
+                for k in 0..2 {
+                    a[k] = f.at(a[k], b[k]);
+                }
+                Self::join(a)
             }
             #[inline(always)]
             fn less(self, other: Self) -> $mask {

@@ -128,11 +128,14 @@ pub const CHANNEL: Claim = Claim {
     measure: newtonian,
 };
 
+/// What a backend makes of a flow.
+type Flow = Box<dyn Fn(&dyn Backend) -> Result<Vec<f64>, VerifyError>>;
+
 /// The same number from a run in each precision.
 fn flows(backend: &dyn Backend, number: f64) -> Result<Sample, VerifyError> {
     let case = [Case::ChannelBingham, Case::ChannelHerschelBulkley, Case::Vortex, Case::FilmBingham]
         [(number as usize).min(3)];
-    let (run, factor): (Box<dyn Fn(&dyn Backend) -> Result<Vec<f64>, VerifyError>>, f64) = match case {
+    let (run, factor): (Flow, f64) = match case {
         Case::Vortex => {
             let n = 32.0;
             let (flow, setup) = trial(case, n).vortex_setup();
