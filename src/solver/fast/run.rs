@@ -67,6 +67,9 @@ impl<P: Physics> FastRun<P> {
         if setup.stress_source {
             return Err(unsupported("the experimental source in the third moments"));
         }
+        if !P::VARIES && physics.constant_omega().is_none() {
+            return Err(unsupported("several Newtonian fluids in the pass made for one"));
+        }
         let pool = (setup.threads > 1)
             .then(|| rayon::ThreadPoolBuilder::new().num_threads(setup.threads).build().ok())
             .flatten();
