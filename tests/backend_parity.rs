@@ -17,7 +17,7 @@ use lahar::solver::fast::instructions::Instructions;
 use lahar::solver::plain::Plain;
 use lahar::solver::run::{Backend, Run};
 use lahar::solver::setup::{
-    BodyForce, ExcessRule, Face, FreeSurface, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
+    BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
     YieldTreatment,
 };
 use proptest::prelude::*;
@@ -37,7 +37,18 @@ fn differences(plain: &dyn Run, fast: &dyn Run) -> Vec<&'static str> {
 
 /// Runs a set-up on the plain backend and on every variant of the fast one.
 fn compare(name: &str, setup: &Setup, steps: u64, variants: &[(Instructions, usize)]) {
-    let mut plain = Plain.start(setup).unwrap_or_else(|error| panic!("{name}: {error}"));
+    compare_to(&Plain, name, setup, steps, variants);
+}
+
+/// Runs a set-up on a reference and on every variant of the fast backend.
+fn compare_to(
+    reference: &dyn Backend,
+    name: &str,
+    setup: &Setup,
+    steps: u64,
+    variants: &[(Instructions, usize)],
+) {
+    let mut plain = reference.start(setup).unwrap_or_else(|error| panic!("{name}: {error}"));
     let ended = plain.advance(steps);
     for &(instructions, threads) in variants {
         let setup = Setup { threads, ..setup.clone() };
@@ -224,4 +235,34 @@ fn parity_of_random_set_ups() {
         panic!("{error}");
     }
     assert!(surfaces.get() > 50, "{} set-ups with a free surface", surfaces.get());
+}
+
+/// In single precision there is no plain run to compare with, but the bits are the same for every
+/// instruction set and number of threads, and a closed box keeps its ledger.
+#[test]
+fn parity_of_single_precision_among_variants() {
+    let config = Config { cases: 60, failure_persistence: None, ..Config::default() };
+    let mut runner = TestRunner::new_with_rng(
+        config,
+        proptest::test_runner::TestRng::deterministic_rng(proptest::test_runner::RngAlgorithm::ChaCha),
+    );
+    let variants = variants();
+    let surfaces = std::cell::Cell::new(0);
+    let outcome = runner.run(&recipes(), |recipe| {
+        let setup = build(recipe);
+        if Plain.start(&setup).is_err() {
+            return Ok(());
+        }
+        surfaces.set(surfaces.get() + u32::from(setup.free_surface.is_some()));
+        for precision in [Precision::Single, Precision::SingleStorage] {
+            let setup = Setup { precision, ..setup.clone() };
+            let baseline = Fast { instructions: Some(Instructions::Baseline) };
+            compare_to(&baseline, precision.name(), &setup, 24, &variants);
+        }
+        Ok(())
+    });
+    if let Err(error) = outcome {
+        panic!("{error}");
+    }
+    assert!(surfaces.get() > 10, "{} set-ups with a free surface", surfaces.get());
 }

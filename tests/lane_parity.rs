@@ -1,5 +1,5 @@
 //! Contract: an expression written over `Lane` gives, in each entry of a pack, the bits it gives for
-//! `f64` alone, whatever the other entries hold. Out of scope: `Dual`, which is not a pack, and the
+//! `f64` alone (in single precision: for `f32` alone), whatever the other entries hold. Out of scope: `Dual`, which is not a pack, and the
 //! payload of NaNs.
 
 mod common;
@@ -8,7 +8,7 @@ use common::{LAWS, Numbers, OPERATORS, TREATMENTS};
 use lahar::boundary::bounce_back::bounce_back;
 use lahar::boundary::wall_slip::{curvature_velocity, link_correction, stress_source, tangential};
 use lahar::collision::Collision;
-use lahar::lane::{Lane, Pack};
+use lahar::lane::{Lane, Pack, Singles};
 use lahar::lattice::Q;
 use lahar::lattice::equilibrium::equilibrium;
 use lahar::lattice::moments::{add_third, deviator, magnitude, moments, populations};
@@ -43,7 +43,24 @@ fn compare_packs<const N: usize>(kernel: &impl Kernel, inputs: &[Vec<f64>], what
     }
 }
 
+fn compare_singles<const N: usize>(kernel: &impl Kernel, inputs: &[Vec<f64>], what: &str) {
+    for group in inputs.windows(N) {
+        let packed: Vec<Singles<N>> =
+            (0..group[0].len()).map(|k| Singles(std::array::from_fn(|lane| group[lane][k] as f32))).collect();
+        let together = kernel.run(&packed);
+        for (lane, input) in group.iter().enumerate() {
+            let alone = kernel.run(&input.iter().map(|&x| x as f32).collect::<Vec<f32>>());
+            assert_eq!(alone.len(), together.len());
+            for (k, (a, p)) in alone.iter().zip(&together).enumerate() {
+                let (a, p) = (f64::from(*a), f64::from(p.0[lane]));
+                assert_eq!(bits(a), bits(p), "{what}, f32: output {k}, lane {lane} of {N}: {a:e} {p:e}");
+            }
+        }
+    }
+}
+
 fn compare(kernel: &impl Kernel, inputs: &[Vec<f64>], what: &str) {
+    compare_singles::<4>(kernel, inputs, what);
     compare_packs::<2>(kernel, inputs, what);
     compare_packs::<4>(kernel, inputs, what);
     compare_packs::<8>(kernel, inputs, what);

@@ -80,7 +80,7 @@ fn limit_primitives() {
     assert_eq!([at(0.0), at(0.99), at(1.0), at(1.99), at(2.5)], [10.0, 10.0, 20.0, 20.0, 30.0]);
     assert_eq!([at(-0.0), at(-7.0), at(f64::NAN), at(f64::NEG_INFINITY)], [10.0; 4]);
     assert_eq!([at(3.0), at(1e18), at(f64::INFINITY)], [30.0; 3]);
-    assert!(1.0.lookup::<2>(&[])[0].is_nan());
+    assert!(1.0_f64.lookup::<2>(&[])[0].is_nan());
     // Derivatives of the primitives: 8 = 2³ · 1, d/dx of the mantissa is 2⁻³.
     let (exponent, mantissa) = Dual::variable(8.0).exponent_mantissa();
     assert_eq!((exponent, mantissa), (Dual::constant(3.0), Dual { value: 1.0, slope: 0.125 }));

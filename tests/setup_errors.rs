@@ -1,9 +1,10 @@
 //! Set-ups that cannot be run are refused before anything is allocated.
 
 use lahar::rheology::Law;
+use lahar::solver::choose::Best;
 use lahar::solver::plain::Plain;
 use lahar::solver::run::{Backend, Runaway, StartError};
-use lahar::solver::setup::{BodyForce, Face, FlowPoint, Setup, SolidMotion};
+use lahar::solver::setup::{BodyForce, Face, FlowPoint, Precision, Setup, SolidMotion};
 
 const LAW: Law = Law::Newtonian { mu: 0.1 };
 
@@ -78,6 +79,26 @@ fn too_many_cells() {
     ));
     // A product that overflows 64 bits.
     assert!(matches!(refusal(|s| s.extents = [usize::MAX; 3]), StartError::TooManyCells { .. }));
+}
+
+/// Single precision is in the fast backend only, and nothing is run in another precision than asked for.
+#[test]
+fn single_precision_is_refused_where_it_is_missing() {
+    for precision in [Precision::Single, Precision::SingleStorage] {
+        let error = refusal(|s| s.precision = precision);
+        let message = "backend `plain` does not have populations in single precision";
+        assert_eq!(error.to_string(), message);
+        let mut setup = Setup::periodic([4, 3, 2], LAW);
+        setup.precision = precision;
+        assert!(Best.start(&setup).is_ok());
+        setup.stress_source = true;
+        let message = format!(
+            "no backend has both {} precision and the experimental source in the third moments: choose double \
+             precision",
+            precision.name()
+        );
+        assert_eq!(Best.start(&setup).err().map(|e| e.to_string()), Some(message));
+    }
 }
 
 #[test]

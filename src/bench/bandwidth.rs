@@ -16,7 +16,9 @@ use super::statistics::Spread;
 use crate::lane::streaming::{Line, fence, store_line_past_cache};
 
 /// Bytes of one cell update that no f64 scheme with 19 stored populations goes below: all read, all written.
-pub const BYTES_PER_UPDATE: f64 = 2.0 * 19.0 * 8.0;
+pub const BYTES_PER_UPDATE: f64 = 2.0 * 19.0 * BYTES_PER_NUMBER;
+/// Of a population in double precision.
+pub const BYTES_PER_NUMBER: f64 = 8.0;
 
 /// One way to use the memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

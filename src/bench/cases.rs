@@ -4,7 +4,7 @@ use super::flows::{
     Dam, bingham, channel, herschel_bulkley, newtonian, rigid, shear_rate, twin_bingham, twin_dam,
     twin_herschel_bulkley, twin_rigid, vortices,
 };
-use crate::solver::setup::Setup;
+use crate::solver::setup::{Precision, Setup};
 
 /// Full size, or about ten times fewer cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,8 +103,58 @@ const fn ratio(name: &'static str, quantity: Quantity, of: &'static str, to: &'s
     Compare { name, quantity, of, to }
 }
 
+/// The same flow with other populations.
+fn single(setup: Setup) -> Setup {
+    Setup { precision: Precision::Single, ..setup }
+}
+
+/// As [`single`], computed with in f64.
+fn stored(setup: Setup) -> Setup {
+    Setup { precision: Precision::SingleStorage, ..setup }
+}
+
+fn bulk_newtonian(s: Scale) -> Setup {
+    vortices(bulk(s), newtonian())
+}
+
+fn bulk_bingham(s: Scale) -> Setup {
+    vortices(bulk(s), bingham(shear_rate(bulk(s))))
+}
+
+fn bulk_mud(s: Scale) -> Setup {
+    vortices(bulk(s), herschel_bulkley(shear_rate(bulk(s))))
+}
+
+fn small_newtonian(s: Scale) -> Setup {
+    vortices(small(s), newtonian())
+}
+
+/// Names of a case in three precisions, and what single precision gains.
+macro_rules! precisions {
+    ($group:literal, $flow:literal) => {
+        [
+            ratio(
+                concat!($flow, ": single / double"),
+                Quantity::Rate,
+                concat!($group, "/", $flow, "-single"),
+                concat!($group, "/", $flow),
+            ),
+            ratio(
+                concat!($flow, ": single storage / double"),
+                Quantity::Rate,
+                concat!($group, "/", $flow, "-single-storage"),
+                concat!($group, "/", $flow),
+            ),
+        ]
+    };
+}
+
+const NEWTONIAN: [Compare; 2] = precisions!("precision", "newtonian");
+const BINGHAM: [Compare; 2] = precisions!("precision", "bingham");
+const MUD: [Compare; 2] = precisions!("precision", "herschel-bulkley");
+
 /// All groups, in the order in which they run.
-pub const GROUPS: [Group; 6] = [
+pub const GROUPS: [Group; 8] = [
     Group {
         name: "bulk",
         about: "vortices in a periodic cube of 192³",
@@ -168,6 +218,42 @@ pub const GROUPS: [Group; 6] = [
                 "bulk-small/herschel-bulkley",
             ),
         ],
+        single_thread: true,
+    },
+    Group {
+        name: "precision",
+        about: "the cube of 192³ with populations in f64 and f32, all threads",
+        cases: &[
+            case("precision/newtonian", "f64", bulk_newtonian),
+            case("precision/newtonian-single", "f32", |s| single(bulk_newtonian(s))),
+            case("precision/newtonian-single-storage", "kept in f32, computed in f64", |s| {
+                stored(bulk_newtonian(s))
+            }),
+            case("precision/bingham", "f64", bulk_bingham),
+            case("precision/bingham-single", "f32", |s| single(bulk_bingham(s))),
+            case("precision/bingham-single-storage", "kept in f32, computed in f64", |s| {
+                stored(bulk_bingham(s))
+            }),
+            case("precision/herschel-bulkley", "f64", bulk_mud),
+            case("precision/herschel-bulkley-single", "f32, powers in f64", |s| single(bulk_mud(s))),
+            case("precision/herschel-bulkley-single-storage", "kept in f32, computed in f64", |s| {
+                stored(bulk_mud(s))
+            }),
+        ],
+        compare: &[NEWTONIAN[0], NEWTONIAN[1], BINGHAM[0], BINGHAM[1], MUD[0], MUD[1]],
+        single_thread: false,
+    },
+    Group {
+        name: "precision-small",
+        about: "the Newtonian cube of 96³ in three precisions",
+        cases: &[
+            case("precision-small/newtonian", "f64", small_newtonian),
+            case("precision-small/newtonian-single", "f32", |s| single(small_newtonian(s))),
+            case("precision-small/newtonian-single-storage", "kept in f32, computed in f64", |s| {
+                stored(small_newtonian(s))
+            }),
+        ],
+        compare: &precisions!("precision-small", "newtonian"),
         single_thread: true,
     },
     Group {

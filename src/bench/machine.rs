@@ -29,6 +29,38 @@ impl Machine {
     }
 }
 
+/// Memory that the cases of a group may take, however much earlier groups took.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Memory {
+    /// Pages this process held before the first group, bytes.
+    resident: Option<u64>,
+}
+
+impl Memory {
+    /// Before the first group.
+    pub(super) fn now() -> Self {
+        Self { resident: resident() }
+    }
+
+    /// Bytes that can still be taken; `None` where the system does not say.
+    ///
+    /// Blocks are too small to be mapped one by one: what a group gave up may stay with the allocator, which
+    /// can return only what lies above the last page in use, and a note written down between two runs is
+    /// enough to hold all below it. The system does not count it as available, but the next group gets it.
+    pub(super) fn free(self) -> Option<u64> {
+        let kept = resident().zip(self.resident).map_or(0, |(now, before)| now.saturating_sub(before));
+        Some(crate::plan::available_memory()?.saturating_add(kept))
+    }
+}
+
+/// Resident pages of this process, bytes.
+fn resident() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    kib.checked_mul(1024)
+}
+
 fn processor(cpuinfo: &str) -> Option<String> {
     let line = cpuinfo.lines().find_map(|line| line.strip_prefix("model name"))?;
     Some(line.trim_start().strip_prefix(':')?.trim().to_owned())

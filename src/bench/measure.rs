@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use super::cases::{Case, Compare, Group, Quantity};
 use super::error::BenchError;
+use super::machine::Memory;
 use super::statistics::Spread;
 use super::yielded::{Yielded, yielded};
 use super::{Options, Report, backends};
-use crate::plan::available_memory;
 use crate::plan::memory::{Layout, human, predict};
 use crate::solver::run::{Backend, Run, StartError};
 
@@ -41,7 +41,9 @@ pub struct CaseSpeed {
     pub mlups: Spread,
     /// Nanoseconds per update, median.
     pub ns_per_update: f64,
-    /// Median speed over the 304-byte ceiling at this number of threads.
+    /// Bytes of a stored population.
+    pub bytes_per_number: u64,
+    /// Median speed over the ceiling at this number of threads, for populations of this size.
     pub share_of_ceiling: f64,
     /// Bytes held per fluid cell.
     pub bytes_per_fluid_cell: f64,
@@ -97,11 +99,12 @@ pub(super) fn group(
     options: &Options,
     group: &'static Group,
     wanted: &dyn Fn(&str) -> bool,
+    memory: Memory,
     report: &mut Report,
 ) -> Result<Option<BenchError>, BenchError> {
     let mut shortage = None;
     let mut subjects = Vec::new();
-    let mut free = available_memory().map(|bytes| (HEADROOM * bytes as f64) as u64);
+    let mut free = memory.free().map(|bytes| (HEADROOM * bytes as f64) as u64);
     for case in group.cases.iter().filter(|case| wanted(case.name)) {
         start(options, group, case, &mut free, &mut subjects, &mut shortage, report)?;
     }
@@ -209,6 +212,7 @@ impl Subject<'_> {
             steps: self.slices.iter().map(|slice| slice.steps).sum(),
             mlups,
             ns_per_update: 1e3 / mlups.median,
+            bytes_per_number: self.run.setup().precision.bytes(),
             // Known once the bandwidth has been measured for the second time.
             share_of_ceiling: f64::NAN,
             bytes_per_fluid_cell: per_cell(self.run.allocated_bytes()),

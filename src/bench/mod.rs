@@ -1,7 +1,7 @@
 //! `lahar bench`: what this machine's memory can do, and what share of it each flow of a fixed list gets.
 //!
-//! A cell update reads and writes 19 numbers of 8 bytes: 304 bytes. The best bandwidth of any kind over
-//! 304 is the ceiling of a scheme that keeps two copies of its populations in memory; every speed is given as
+//! A cell update reads and writes 19 numbers of 8 bytes: 304 bytes, half of it in single precision. The best bandwidth of any kind over
+//! this is the ceiling of a scheme that keeps two copies of its populations in memory; every speed is given as
 //! a share of the ceiling measured in the same run at the same number of threads. Cases of a group are
 //! timed in turns, slice by slice, and ratios are taken within a turn: whatever else the machine does hits
 //! both sides.
@@ -27,8 +27,9 @@ use crate::plan::available_memory;
 use crate::solver::choose::Best;
 use crate::solver::plain::Plain;
 use crate::solver::run::Backend;
-use bandwidth::{BYTES_PER_UPDATE, Speed};
+use bandwidth::{BYTES_PER_NUMBER, BYTES_PER_UPDATE, Speed};
 use cases::{GROUPS, Scale};
+use machine::Memory;
 
 /// Every backend, the plain one first.
 #[must_use]
@@ -167,13 +168,14 @@ pub fn run(options: &Options, say: &mut dyn FnMut(&str)) -> Result<Report, Bench
         machine,
     };
     measure_bandwidth(options, &mut report, say)?;
+    let memory = Memory::now();
     let mut shortage = None;
     for group in &GROUPS {
         let wanted =
             |name: &str| options.only.as_deref().is_none_or(|only| only == group.name || only == name);
         if group.cases.iter().any(|case| wanted(case.name)) {
             say(&format!("{}: {}", group.name, group.about));
-            shortage = shortage.or(measure::group(options, group, &wanted, &mut report)?);
+            shortage = shortage.or(measure::group(options, group, &wanted, memory, &mut report)?);
         }
     }
     if report.cases.is_empty() {
@@ -183,7 +185,9 @@ pub fn run(options: &Options, say: &mut dyn FnMut(&str)) -> Result<Report, Bench
     measure_bandwidth(options, &mut report, say)?;
     for case in &mut report.cases {
         let ceiling = report.ceilings.iter().find(|ceiling| ceiling.threads == case.threads);
-        case.share_of_ceiling = ceiling.map_or(f64::NAN, |ceiling| case.mlups.median / ceiling.mlups);
+        let numbers = case.bytes_per_number as f64 / BYTES_PER_NUMBER;
+        case.share_of_ceiling =
+            ceiling.map_or(f64::NAN, |ceiling| case.mlups.median * numbers / ceiling.mlups);
     }
     Ok(report)
 }

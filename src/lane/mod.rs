@@ -5,11 +5,13 @@
 //! (exponent, power of two, row of a table), exp and ln built from these (see [`powers`]), and expm1
 //! from `libm`. No fused multiply-add, no reciprocal estimate, no hardware minimum or maximum (ties of signed zeros), and
 //! no lane reads another lane. An expression written once over [`Lane`] therefore gives the same
-//! bits for `f64` and for each entry of a [`Pack`].
+//! bits for `f64` and for each entry of a [`Pack`]; likewise, with the roundings of single precision, for
+//! `f32` and each entry of [`Singles`].
 
 mod dual;
 mod pack;
 pub mod powers;
+mod single;
 pub mod streaming;
 pub mod unroll;
 
@@ -18,6 +20,13 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 pub use dual::Dual;
 pub use pack::Pack;
+pub use single::Singles;
+
+/// A function of two numbers over any lane.
+pub trait OfTwo {
+    /// Its value.
+    fn at<L: Lane>(&self, a: L, b: L) -> L;
+}
 
 /// A number (`f64`), a pack of numbers ([`Pack`]) or a number with its derivative ([`Dual`]).
 pub trait Lane:
@@ -54,6 +63,12 @@ pub trait Lane:
     fn exp_m1(self) -> Self;
     /// Natural logarithm, see [`powers::ln`].
     fn ln(self) -> Self;
+    /// `f(a, b)`, computed in `f64` where lanes are shorter and then rounded: for what needs more digits or a
+    /// wider range on the way than in its result.
+    #[inline(always)]
+    fn in_double<F: OfTwo>(f: &F, a: Self, b: Self) -> Self {
+        f.at(a, b)
+    }
     /// `self < other`, false where either is NaN.
     fn less(self, other: Self) -> Self::Mask;
     /// `self <= other`, false where either is NaN.

@@ -8,10 +8,11 @@ use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::hydrostatic;
 use crate::scene::{
     BodyForce as SceneForce, Boundary, ClampLimits, Collision, ExcessChoice, InitialPressure, Measure,
-    Operator, Probe, RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
+    Operator, PrecisionChoice, Probe, RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice,
+    YieldChoice,
 };
 use crate::solver::setup::{
-    BodyForce, ExcessRule, Face, FreeSurface, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
+    BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
     YieldTreatment,
 };
 use crate::units::Units;
@@ -44,6 +45,11 @@ pub fn lower(scene: &Scene, units: &Units, mut cells: Cells) -> Setup {
         WallChoice::ViscosityIndependent => WallRule::ViscosityIndependent,
     };
     setup.stress_source = scene.numerics.stress_source;
+    setup.precision = match scene.numerics.precision {
+        PrecisionChoice::Double => Precision::Double,
+        PrecisionChoice::Single => Precision::Single,
+        PrecisionChoice::SingleStorage => Precision::SingleStorage,
+    };
     setup
 }
 

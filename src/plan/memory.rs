@@ -85,7 +85,7 @@ impl Prediction {
     }
 }
 
-/// Two copies of 19 populations in f64.
+/// Two copies of 19 populations in f64, which is all the plain backend has.
 pub const POPULATIONS: u64 = 2 * 19 * 8;
 /// What a cell is for streaming: one 32-bit number.
 const NEIGHBOURS: u64 = 4;
@@ -233,12 +233,13 @@ fn neighbour(setup: &Setup, at: [usize; 3], offset: [i32; 3]) -> Option<[usize; 
 /// cells at walls and at the surface, and what a block says of itself.
 #[must_use]
 pub fn fast_bytes(setup: &Setup) -> u64 {
-    let layout = Blocks::new(setup.extents, fast::LINE);
+    let line = fast::line(setup.precision);
+    let layout = Blocks::new(setup.extents, line);
     let held = held_blocks(setup, &layout);
     let count = held.iter().filter(|&&held| held).count() as u64;
     let cells = count * layout.block_cells() as u64;
     let (rim, interface) = special_cells(setup, &layout, &held);
-    let mut per_cell = 2 * 19 * 8;
+    let mut per_cell = 2 * 19 * setup.precision.bytes();
     if setup.fluids.len() > 1 {
         per_cell += 1;
     }
@@ -253,9 +254,9 @@ pub fn fast_bytes(setup: &Setup) -> u64 {
         per_cell += 1 + 8;
     }
     let per_rim = fast::rim_bytes(corrected);
-    let table = layout.bytes() + fast::sources_bytes(&layout);
+    let table = layout.bytes() + fast::sources_bytes(&layout, line);
     cells * per_cell
-        + count * fast::block_bytes(&layout, setup.free_surface.is_some())
+        + count * fast::block_bytes(&layout, line, setup.free_surface.is_some())
         + rim * per_rim
         + interface * fast::INTERFACE_BYTES
         + table
@@ -367,7 +368,7 @@ mod tests {
     #[test]
     fn exact_number_of_blocks_below_a_surface() {
         let count = |setup: &Setup| {
-            let layout = Blocks::new(setup.extents, fast::LINE);
+            let layout = Blocks::new(setup.extents, fast::line(setup.precision));
             held_blocks(setup, &layout).into_iter().filter(|&held| held).count()
         };
         let mut setup = Setup::periodic([64, 64, 64], LAW);

@@ -10,7 +10,7 @@ use super::surface::Pool;
 use super::time_step::{StepRule, reference_viscosity};
 use crate::collision::CollisionChoice;
 use crate::scene::{InitialPressure, Rheology, Scene};
-use crate::solver::setup::{Setup, WallRule, YieldTreatment};
+use crate::solver::setup::{Precision, Setup, WallRule, YieldTreatment};
 use crate::stability::max_stable_speed;
 use crate::units::Units;
 
@@ -77,6 +77,13 @@ pub struct Numbers {
     pub stable_speed: Option<f64>,
     /// It over the expected speed.
     pub stability_margin: Option<f64>,
+    /// Precision of the populations.
+    pub precision: &'static str,
+    /// Bytes of a population.
+    pub population_bytes: u64,
+    /// Most by which rounding can change the velocity, relative: 2⁻²⁴ per rounding (2⁻⁵³ in double precision)
+    /// as a body force that never changes sign.
+    pub rounding_floor: f64,
     /// Speed at which an unyielded solid held by walls slips, m/s: 2θ f Δt/ρ \[K3\].
     pub plug_slip_m_per_s: f64,
     /// The same over the whole run, m.
@@ -155,6 +162,9 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         tau_max,
         stable_speed,
         stability_margin: stable_speed.filter(|_| speed_lattice > 0.0).map(|limit| limit / speed_lattice),
+        precision: setup.precision.name(),
+        population_bytes: setup.precision.bytes(),
+        rounding_floor: rounding_floor(given, tau_min),
         plug_slip_m_per_s: slip,
         plug_slip_m: slip * scene.stop.end_time_s,
         memory,
@@ -277,6 +287,22 @@ fn at_rest(law: &Rheology, units: &Units) -> f64 {
     units.tau_of_viscosity(viscosity)
 }
 
+/// ε times roundings per step times the steps they can add up over: those of the run, or L²/(8ν) where walls or
+/// a bed L or L/2 cells apart hold the flow, as they hold it against a force.
+///
+/// # Source
+/// Derived in the claims `single-precision-channel` and `single-precision-flows`.
+fn rounding_floor(given: &Given, tau_min: f64) -> f64 {
+    let precision = given.setup.precision;
+    let across = match given.pool {
+        Some(pool) => 2.0 * given.units.length_to_lattice(pool.depth),
+        None => given.gap,
+    };
+    let held = 3.0 * across * across / (8.0 * (tau_min - 0.5));
+    let steps = given.steps as f64;
+    precision.roundings() * precision.rounding() * if held < steps { held } else { steps }
+}
+
 /// 2θ f Δt / ρ in m/s: the slip of an unyielded solid along the walls that hold it \[K3\].
 fn plug_slip(given: &Given) -> f64 {
     let laws = std::iter::once(&given.scene.fluid.rheology);
@@ -344,6 +370,14 @@ fn warnings(n: &Numbers, scene: &Scene, setup: &Setup) -> Vec<String> {
         format!(
             "`{}` cannot bring a moving plug to rest with the exact yield stress; `central_moment` can [K3]",
             n.operator
+        ),
+    );
+    warn(
+        setup.precision != Precision::Double && n.rounding_floor > 1e-3,
+        format!(
+            "rounding in `{}` can change velocities by up to {:.1} %; `double` cannot",
+            n.precision,
+            100.0 * n.rounding_floor
         ),
     );
     warn(

@@ -60,6 +60,16 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     row(f, "τ range", format_args!("{:.4} to {}", n.tau_min, tau(n.tau_max)))?;
     stability(f, n)?;
     slip(f, n)?;
+    row(
+        f,
+        "populations",
+        format_args!(
+            "{}, {} bytes each; rounding: at most {} of the velocity",
+            n.precision,
+            n.population_bytes,
+            short(n.rounding_floor)
+        ),
+    )?;
     writeln!(f, "\nMemory")?;
     for item in &n.memory {
         row(f, item.what, format_args!("{} bytes per cell", short(item.bytes_per_cell)))?;

@@ -49,7 +49,7 @@ impl Rheology for HerschelBulkley {
             return L::zero();
         }
         let safe = L::select(yielded, excess, L::one());
-        let gamma_dot = self.solve.root(rho * L::splat(1.0 / 6.0), safe);
+        let gamma_dot = L::in_double(&self.solve, rho * L::splat(1.0 / 6.0), safe);
         L::select(yielded, gamma_dot, L::zero())
     }
 

@@ -1,7 +1,7 @@
 //! σ = σ0 (1 − exp(−m γ̇)) + K γ̇ⁿ.
 
 use super::Rheology;
-use crate::lane::Lane;
+use crate::lane::{Lane, OfTwo};
 
 /// Herschel-Bulkley fluid regularised after Papanastasiou: no yield surface, a steep viscous start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,13 +36,7 @@ impl Papanastasiou {
     }
 }
 
-impl Rheology for Papanastasiou {
-    #[inline(always)]
-    fn stress<L: Lane>(&self, gamma_dot: L) -> L {
-        let plastic = -(L::splat(self.sigma0) * (-(L::splat(self.m) * gamma_dot)).exp_m1());
-        plastic + L::splat(self.k) * (L::splat(self.n) * gamma_dot.ln()).exp()
-    }
-
+impl OfTwo for Papanastasiou {
     /// Newton's method in ln γ̇, kept inside a shrinking bracket because the law is not convex there.
     ///
     /// The bracket: no single term may exceed q (upper end), each term at most q/3 (lower end).
@@ -52,7 +46,7 @@ impl Rheology for Papanastasiou {
     /// # Verified by
     /// Claim `couette-all-laws`; property `solve_is_monotone_and_unique`.
     #[inline(always)]
-    fn shear_rate<L: Lane>(&self, rho: L, q: L) -> L {
+    fn at<L: Lane>(&self, rho: L, q: L) -> L {
         let flowing = L::zero().less(q);
         let q = L::select(flowing, q, L::one());
         let a = rho * L::splat(1.0 / 6.0);
@@ -81,6 +75,19 @@ impl Rheology for Papanastasiou {
             }
         }
         L::select(flowing, x.exp(), L::zero())
+    }
+}
+
+impl Rheology for Papanastasiou {
+    #[inline(always)]
+    fn stress<L: Lane>(&self, gamma_dot: L) -> L {
+        let plastic = -(L::splat(self.sigma0) * (-(L::splat(self.m) * gamma_dot)).exp_m1());
+        plastic + L::splat(self.k) * (L::splat(self.n) * gamma_dot.ln()).exp()
+    }
+
+    #[inline(always)]
+    fn shear_rate<L: Lane>(&self, rho: L, q: L) -> L {
+        L::in_double(self, rho, q)
     }
 
     #[inline(always)]

@@ -8,8 +8,8 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::lane::Lane;
 use crate::lane::powers::{self, ln_of_positive, nearest};
+use crate::lane::{Lane, OfTwo};
 
 /// The table ends where Y differs from its asymptotes by e⁻¹² = 6e-6.
 const REACH: f64 = 12.0;
@@ -101,7 +101,7 @@ impl PowerSum {
     /// The root g of K gⁿ + a g = s, for a, s > 0 and finite; s below 1e-290 counts as 1e-290.
     ///
     /// # Exactness
-    /// Bit-stable; no iteration, no branch. |K gⁿ + a g − s| ≤ 1e-13 s as long as g is a normal number:
+    /// Bit-stable; no iteration, no branch. For lanes of `f64` only, see [`Lane::in_double`]. |K gⁿ + a g − s| ≤ 1e-13 s as long as g is a normal number:
     /// at most (n²+1)/6 δ³ < 1e-14 (n ≤ 5) is left of the error δ ≤ 1.3e-5 of the table, and c carries
     /// the half-units of rounding of four numbers below 100.
     /// # Source
@@ -125,6 +125,13 @@ impl PowerSum {
         let step = (one - (power + linear)) * inverse_slope;
         // e^δ to second order, with δ = step − ½ curvature step².
         ratio * linear * (one + step * (one + L::splat(0.5) * step * (one - curvature)))
+    }
+}
+
+impl OfTwo for PowerSum {
+    #[inline(always)]
+    fn at<L: Lane>(&self, a: L, s: L) -> L {
+        self.root(a, s)
     }
 }
 

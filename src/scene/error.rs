@@ -215,6 +215,11 @@ pub enum SceneProblem {
         "found {found} entries\n  allowed: at most {max}; cells store the number in one byte\n  way out: join shapes"
     )]
     TooMany { found: usize, max: usize },
+    /// Single precision with what only the plain backend has.
+    #[error(
+        "single precision is only in the fast backend, and {what} is only in the plain one\n  allowed: `double` together with it\n  way out: leave one of the two out"
+    )]
+    OnlyDouble { what: &'static str },
     /// A time beyond the end.
     #[error(
         "found {found} s\n  allowed: at most the end time, {end} s\n  way out: a shorter interval, or a later `stop.end_time_s`"

@@ -22,8 +22,9 @@ pub use fluid::{
     Rheology, Solid,
 };
 pub use numerics::{
-    Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Measure, Numerics, Operator, Output, Probe,
-    RefillChoice, Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
+    Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Measure, Numerics, Operator, Output,
+    PrecisionChoice, Probe, RefillChoice, Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice,
+    YieldChoice,
 };
 
 /// One experiment.

@@ -21,6 +21,9 @@ pub struct Numerics {
     /// Source in the third moments (experimental).
     #[serde(default)]
     pub stress_source: bool,
+    /// Precision of what is stored and computed with.
+    #[serde(default)]
+    pub precision: PrecisionChoice,
     /// Rules of the free surface; only with `fluid.initial`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub free_surface: Option<SurfaceRules>,
@@ -36,6 +39,20 @@ pub struct Numerics {
     /// Expected largest velocity, m/s; estimated when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference_velocity_m_per_s: Option<f64>,
+}
+
+/// Precision of the populations. Single precision is deterministic too, takes half the memory and about half
+/// the time, and rounds velocities to 2⁻²⁴ of themselves in every step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum PrecisionChoice {
+    /// Stored and computed with in 64 bits.
+    #[default]
+    Double,
+    /// Stored and computed with in 32 bits.
+    Single,
+    /// Stored in 32 bits, computed with in 64.
+    SingleStorage,
 }
 
 /// Rules of the free surface.

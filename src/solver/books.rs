@@ -32,8 +32,14 @@ pub struct Books {
     pub conversions: u64,
 }
 
-/// Roundings per fluid cell and step that the ledger may collect: collision and streaming each lose at
-/// most a few units in the last place of numbers well below 1.
+/// Roundings per fluid cell and step that the ledger may collect, in units of the last place of 1.
+///
+/// A stored population f − w is off by at most half a unit of its own last place, and a collision in the
+/// same precision adds up 19 of them twice (ρ, then the population at rest as what is left), each partial sum
+/// rounded once: 19 + 2 · 19 half-units of numbers whose magnitudes sum to Σ|f − w| ≤ |ρ − 1| + 3|u|, about 1 at
+/// the speed limit and far less elsewhere. That is 29 units; streaming and the sums over cells are exact or
+/// in f64. Roundings of neighbouring cells may agree (uniform flow), so the bound grows with the cells and
+/// not with their root.
 const ROUNDINGS: f64 = 32.0;
 
 /// What one step brought in over links: entries of many cells, to be added to the [`Books`] in any order.
@@ -205,12 +211,14 @@ impl Books {
     }
 
     /// Mass gained or lost since the last closing, and the bound of rounding; `None` if within it.
-    pub fn close(&mut self, mass: f64, fluid_cells: u64) -> Option<(f64, f64)> {
+    /// `rounding`: largest relative error of a stored population.
+    pub fn close(&mut self, mass: f64, fluid_cells: u64, rounding: f64) -> Option<(f64, f64)> {
         let external = self.from_walls.value() - self.outflow.value();
         let before = self.mass;
         self.mass = mass - external;
         let residual = (mass - external - before).abs();
-        let bound = ROUNDINGS * f64::EPSILON * (fluid_cells as f64 + self.initial_mass);
+        // Populations are off in their own precision, the masses of interface cells and all sums in f64.
+        let bound = ROUNDINGS * (2.0 * rounding * fluid_cells as f64 + f64::EPSILON * self.initial_mass);
         if residual <= bound { None } else { Some((residual / self.initial_mass, bound)) }
     }
 

@@ -3,9 +3,10 @@
 use super::fast::Fast;
 use super::plain::Plain;
 use super::run::{Backend, Run, StartError};
-use super::setup::{Setup, SurfaceForce};
+use super::setup::{Precision, Setup, SurfaceForce};
 
-/// The fast backend, and the plain one for what only that has ([`only_plain`]): the bits are the same.
+/// The fast backend, and the plain one for what only that has ([`only_plain`]): the bits are the same. Single
+/// precision is only in the fast one; together with what only the plain one has it is refused by name.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Best;
 
@@ -17,6 +18,9 @@ impl Backend for Best {
     fn start(&self, setup: &Setup) -> Result<Box<dyn Run>, StartError> {
         match only_plain(setup) {
             None => Fast::default().start(setup),
+            Some(feature) if setup.precision != Precision::Double => {
+                Err(StartError::Together { precision: setup.precision.name(), feature })
+            }
             Some(_) => Plain.start(setup),
         }
     }

@@ -193,6 +193,14 @@ pub enum StartError {
         /// What it lacks.
         feature: &'static str,
     },
+    /// No backend has both.
+    #[error("no backend has both {precision} precision and {feature}: choose double precision")]
+    Together {
+        /// Of the populations.
+        precision: &'static str,
+        /// What only the plain backend has.
+        feature: &'static str,
+    },
     /// A per-cell array has the wrong length.
     #[error("`{field}` has {found} entries, but the box has {expected} cells")]
     Length { field: &'static str, found: usize, expected: usize },

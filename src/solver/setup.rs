@@ -57,6 +57,67 @@ pub enum WallRule {
     ViscosityIndependent,
 }
 
+/// In which precision populations (f − w) are kept and computed with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// Both in f64.
+    #[default]
+    Double,
+    /// Both in f32. Walls, the free surface and all sums over cells are in f64, and so is the local solve of
+    /// laws with a power or an exponential.
+    Single,
+    /// Kept in f32, computed with in f64: one rounding per population and step.
+    SingleStorage,
+}
+
+impl Precision {
+    /// Every choice.
+    pub const ALL: [Self; 3] = [Self::Double, Self::Single, Self::SingleStorage];
+
+    /// Short name, as in scenes.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Double => "double",
+            Self::Single => "single",
+            Self::SingleStorage => "single_storage",
+        }
+    }
+
+    /// Bytes of a population.
+    #[must_use]
+    pub const fn bytes(self) -> u64 {
+        match self {
+            Self::Double => 8,
+            Self::Single | Self::SingleStorage => 4,
+        }
+    }
+
+    /// Roundings, each of at most [`Self::rounding`] times the momentum of a cell, that it suffers in a step.
+    ///
+    /// Stored in f32: one. Computed in f32 as well: the two sums of five populations (2.3 together, partial
+    /// sums of u/6 to u/2), their difference, the half force, the division by ρ and ρ itself (4), ρu and the
+    /// half force put back (2), and the ten populations with c_x ≠ 0 rebuilt from half-sums of moments below
+    /// 2u/3 (4.7): thirteen.
+    #[must_use]
+    pub const fn roundings(self) -> f64 {
+        match self {
+            Self::SingleStorage => 1.0,
+            Self::Double | Self::Single => 13.0,
+        }
+    }
+
+    /// Largest relative error of rounding a population once.
+    #[must_use]
+    pub const fn rounding(self) -> f64 {
+        match self {
+            Self::Double => 0.5 * f64::EPSILON,
+            // Half the distance from 1 to the next number of 24 bits.
+            Self::Single | Self::SingleStorage => 0.5 / 8_388_608.0,
+        }
+    }
+}
+
 /// Body force per volume (lattice units); enters as a constant force, not ρg \[L5\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BodyForce {
@@ -180,6 +241,8 @@ pub struct Setup {
     pub loads: bool,
     /// A run stops when a cell is faster than this (lattice units) or not finite.
     pub speed_limit: f64,
+    /// Precision of the populations.
+    pub precision: Precision,
     /// Worker threads; results do not depend on it.
     pub threads: usize,
 }
@@ -204,6 +267,7 @@ impl Setup {
             free_surface: None,
             loads: false,
             speed_limit: 0.4,
+            precision: Precision::Double,
             threads: 1,
         }
     }

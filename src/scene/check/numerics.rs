@@ -1,12 +1,16 @@
 //! Checks of numerical choices and of when to stop.
 
 use super::{Checker, SceneError, SceneProblem};
-use crate::scene::{ClampLimits, Collision, Numerics, Operator, Stop, YieldChoice};
+use crate::scene::{
+    ClampLimits, Collision, Numerics, Operator, PrecisionChoice, Stop, SurfaceGravity, SurfaceRules,
+    YieldChoice,
+};
 
 const STEP_KEYS: &[&str] = &["time_step_s", "relaxation_time", "target_mach"];
 
 pub(super) fn check_numerics(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {
     collision(at, &numerics.collision)?;
+    precision(at, numerics)?;
     match &numerics.yield_treatment {
         YieldChoice::Exact => {}
         YieldChoice::ImplicitClamped(limits) => {
@@ -17,6 +21,24 @@ pub(super) fn check_numerics(at: &Checker, numerics: &Numerics) -> Result<(), Sc
         }
     }
     time_step(at, numerics)
+}
+
+/// Single precision is in the fast backend only; what only the plain one has cannot be had with it.
+fn precision(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {
+    let inertia = |rules: SurfaceRules| rules.gravity == SurfaceGravity::ByFillAndInertia;
+    let plain = if numerics.stress_source {
+        Some("`numerics.stress_source`")
+    } else if numerics.free_surface.is_some_and(inertia) {
+        Some("`numerics.free_surface.gravity` = `by_fill_and_inertia`")
+    } else {
+        None
+    };
+    match plain {
+        Some(what) => at.ensure(numerics.precision == PrecisionChoice::Double, "numerics.precision", || {
+            SceneProblem::OnlyDouble { what }
+        }),
+        None => Ok(()),
+    }
 }
 
 fn time_step(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {

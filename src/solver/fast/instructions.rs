@@ -7,7 +7,10 @@ use super::surface::InterfaceCell;
 use super::surface::exchange::Streaming;
 use super::surface::packed::{Near, stream_block};
 #[cfg(target_arch = "x86_64")]
-use super::x86;
+use super::{
+    x86::{Avx2, Avx512, Sse2},
+    x86_single::{Avx2Single, Avx2Stored, Avx512Single, Avx512Stored, Sse2Single, Sse2Stored},
+};
 use crate::solver::books::Entries;
 use crate::solver::physics::Physics;
 
@@ -76,131 +79,146 @@ impl Chosen {
     }
 }
 
-/// A pass over one block in f64.
-pub fn run<P: Physics>(chosen: Chosen, task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
-    match chosen.get() {
-        Instructions::Baseline => baseline(task, own),
+/// The passes over one block of a run, in its precision.
+#[derive(Clone, Copy)]
+pub struct Passes<P, E> {
+    /// Gather, collide, store: see [`pass`].
+    pub collide: fn(Chosen, &Task<P, E>, &mut Own<E>) -> Outcome,
+    /// Streams the interface cells: see [`stream_block`].
+    pub exchange: fn(Chosen, &Streaming<P, E>, &Near<E>, &mut [InterfaceCell], &mut Entries),
+}
+
+/// A function of registers, compiled for every instruction set: `$run` with portable registers, then those
+/// of x86_64.
+macro_rules! compiled {
+    (
+        [$($generics:ident : $bound:path),*] ($($argument:ident : $type:ty),*) $(-> $result:ty)?,
+        $chosen:expr, $run:ident, $portable:ty, $sse2:ident $avx2:ident $avx512:ident
+    ) => {{
         #[cfg(target_arch = "x86_64")]
-        // SAFETY: `Chosen` is only made of what the processor has.
-        Instructions::Avx2 => unsafe { avx2(task, own) },
-        #[cfg(target_arch = "x86_64")]
-        // SAFETY: as above.
-        Instructions::Avx512 => unsafe { avx512(task, own) },
+        {
+            #[target_feature(enable = "avx2")]
+            fn avx2<$($generics: $bound),*>($($argument: $type),*) $(-> $result)? {
+                $run::<$avx2, $($generics),*>($($argument),*)
+            }
+            #[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
+            fn avx512<$($generics: $bound),*>($($argument: $type),*) $(-> $result)? {
+                $run::<$avx512, $($generics),*>($($argument),*)
+            }
+            match $chosen.get() {
+                Instructions::Baseline => $run::<$sse2, $($generics),*>($($argument),*),
+                // SAFETY: `Chosen` is only made of what the processor has.
+                Instructions::Avx2 => unsafe { avx2::<$($generics),*>($($argument),*) },
+                // SAFETY: as above.
+                Instructions::Avx512 => unsafe { avx512::<$($generics),*>($($argument),*) },
+            }
+        }
         #[cfg(not(target_arch = "x86_64"))]
-        Instructions::Avx2 | Instructions::Avx512 => baseline(task, own),
-    }
+        match $chosen.get() {
+            Instructions::Baseline | Instructions::Avx2 | Instructions::Avx512 => {
+                $run::<$portable, $($generics),*>($($argument),*)
+            }
+        }
+    }};
 }
 
-#[cfg(target_arch = "x86_64")]
-fn baseline<P: Physics>(task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
-    pass::<x86::Sse2, P>(task, own)
+/// The collision in f64.
+fn collide_double<P: Physics>(chosen: Chosen, task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
+    compiled!(
+        [P: Physics](task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome,
+        chosen, pass, super::registers::Double<2>, Sse2 Avx2 Avx512
+    )
 }
 
-#[cfg(not(target_arch = "x86_64"))]
-fn baseline<P: Physics>(task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
-    pass::<super::registers::Double<2>, P>(task, own)
+/// The collision in f32, stored in f32.
+fn collide_single<P: Physics>(chosen: Chosen, task: &Task<P, f32>, own: &mut Own<f32>) -> Outcome {
+    compiled!(
+        [P: Physics](task: &Task<P, f32>, own: &mut Own<f32>) -> Outcome,
+        chosen, pass, super::registers::Single<4>, Sse2Single Avx2Single Avx512Single
+    )
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn avx2<P: Physics>(task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
-    pass::<x86::Avx2, P>(task, own)
+/// The collision in f64, stored in f32.
+fn collide_stored<P: Physics>(chosen: Chosen, task: &Task<P, f32>, own: &mut Own<f32>) -> Outcome {
+    compiled!(
+        [P: Physics](task: &Task<P, f32>, own: &mut Own<f32>) -> Outcome,
+        chosen, pass, super::registers::Stored<2>, Sse2Stored Avx2Stored Avx512Stored
+    )
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
-fn avx512<P: Physics>(task: &Task<P, f64>, own: &mut Own<f64>) -> Outcome {
-    pass::<x86::Avx512, P>(task, own)
-}
-
-/// Streams the interface cells of one block.
-pub fn exchange<P: Physics>(
+/// The exchange of populations stored in f64.
+fn exchange_double<P: Physics>(
     chosen: Chosen,
-    streaming: &Streaming<P>,
-    near: &Near,
+    streaming: &Streaming<P, f64>,
+    near: &Near<f64>,
     list: &mut [InterfaceCell],
     entries: &mut Entries,
 ) {
-    match chosen.get() {
-        Instructions::Baseline => exchange_baseline(streaming, near, list, entries),
-        #[cfg(target_arch = "x86_64")]
-        // SAFETY: `Chosen` is only made of what the processor has.
-        Instructions::Avx2 => unsafe { exchange_avx2(streaming, near, list, entries) },
-        #[cfg(target_arch = "x86_64")]
-        // SAFETY: as above.
-        Instructions::Avx512 => unsafe { exchange_avx512(streaming, near, list, entries) },
-        #[cfg(not(target_arch = "x86_64"))]
-        Instructions::Avx2 | Instructions::Avx512 => exchange_baseline(streaming, near, list, entries),
-    }
+    compiled!(
+        [P: Physics](
+            streaming: &Streaming<P, f64>,
+            near: &Near<f64>,
+            list: &mut [InterfaceCell],
+            entries: &mut Entries
+        ),
+        chosen, stream_block, super::registers::Double<2>, Sse2 Avx2 Avx512
+    );
 }
 
-fn exchange_baseline<P: Physics>(
-    streaming: &Streaming<P>,
-    near: &Near,
+/// The exchange of populations stored in f32; like all that is done with interface cells, in f64.
+fn exchange_stored<P: Physics>(
+    chosen: Chosen,
+    streaming: &Streaming<P, f32>,
+    near: &Near<f32>,
     list: &mut [InterfaceCell],
     entries: &mut Entries,
 ) {
-    #[cfg(target_arch = "x86_64")]
-    stream_block::<x86::Sse2, P>(streaming, near, list, entries);
-    #[cfg(not(target_arch = "x86_64"))]
-    stream_block::<super::registers::Double<2>, P>(streaming, near, list, entries);
+    compiled!(
+        [P: Physics](
+            streaming: &Streaming<P, f32>,
+            near: &Near<f32>,
+            list: &mut [InterfaceCell],
+            entries: &mut Entries
+        ),
+        chosen, stream_block, super::registers::Stored<2>, Sse2Stored Avx2Stored Avx512Stored
+    );
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn exchange_avx2<P: Physics>(
-    streaming: &Streaming<P>,
-    near: &Near,
-    list: &mut [InterfaceCell],
-    entries: &mut Entries,
-) {
-    stream_block::<x86::Avx2, P>(streaming, near, list, entries);
+impl<P: Physics> Passes<P, f64> {
+    /// Everything in f64.
+    pub const DOUBLE: Self = Self { collide: collide_double, exchange: exchange_double };
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
-fn exchange_avx512<P: Physics>(
-    streaming: &Streaming<P>,
-    near: &Near,
-    list: &mut [InterfaceCell],
-    entries: &mut Entries,
-) {
-    stream_block::<x86::Avx512, P>(streaming, near, list, entries);
+impl<P: Physics> Passes<P, f32> {
+    /// Stored and collided in f32.
+    pub const SINGLE: Self = Self { collide: collide_single, exchange: exchange_stored };
+    /// Stored in f32, collided in f64.
+    pub const STORED: Self = Self { collide: collide_stored, exchange: exchange_stored };
 }
 
-/// Wall corrections of one block, see [`correct`].
-pub fn walls<P: Physics>(
+/// Wall corrections of one block, see [`correct`]; in f64 whatever is stored.
+pub fn walls<P: Physics, F: Fn(usize) -> Option<[f64; 3]>, I: Fn(Place) -> bool>(
     chosen: Chosen,
     task: &WallTask<P>,
     block: &Block,
     rim: &mut [Rim],
-    force: &impl Fn(usize) -> Option<[f64; 3]>,
-    is_fluid: &impl Fn(Place) -> bool,
+    force: &F,
+    is_fluid: &I,
 ) {
     match chosen.get() {
-        Instructions::Baseline => walls_baseline(task, block, rim, force, is_fluid),
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Baseline => correct::<Sse2, P>(task, block, rim, force, is_fluid),
+        #[cfg(not(target_arch = "x86_64"))]
+        Instructions::Baseline | Instructions::Avx2 | Instructions::Avx512 => {
+            correct::<super::registers::Double<2>, P>(task, block, rim, force, is_fluid);
+        }
         #[cfg(target_arch = "x86_64")]
         // SAFETY: `Chosen` is only made of what the processor has.
         Instructions::Avx2 => unsafe { walls_avx2(task, block, rim, force, is_fluid) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
         Instructions::Avx512 => unsafe { walls_avx512(task, block, rim, force, is_fluid) },
-        #[cfg(not(target_arch = "x86_64"))]
-        Instructions::Avx2 | Instructions::Avx512 => walls_baseline(task, block, rim, force, is_fluid),
     }
-}
-
-fn walls_baseline<P: Physics>(
-    task: &WallTask<P>,
-    block: &Block,
-    rim: &mut [Rim],
-    force: &impl Fn(usize) -> Option<[f64; 3]>,
-    is_fluid: &impl Fn(Place) -> bool,
-) {
-    #[cfg(target_arch = "x86_64")]
-    correct::<x86::Sse2, P>(task, block, rim, force, is_fluid);
-    #[cfg(not(target_arch = "x86_64"))]
-    correct::<super::registers::Double<2>, P>(task, block, rim, force, is_fluid);
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -212,7 +230,7 @@ fn walls_avx2<P: Physics>(
     force: &impl Fn(usize) -> Option<[f64; 3]>,
     is_fluid: &impl Fn(Place) -> bool,
 ) {
-    correct::<x86::Avx2, P>(task, block, rim, force, is_fluid);
+    correct::<Avx2, P>(task, block, rim, force, is_fluid);
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -224,5 +242,5 @@ fn walls_avx512<P: Physics>(
     force: &impl Fn(usize) -> Option<[f64; 3]>,
     is_fluid: &impl Fn(Place) -> bool,
 ) {
-    correct::<x86::Avx512, P>(task, block, rim, force, is_fluid);
+    correct::<Avx512, P>(task, block, rim, force, is_fluid);
 }

@@ -178,8 +178,7 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
                 R::store_wide(m.d_rho, &mut own.density[local + part..]);
             }
             if task.surface.is_some() && ordinary {
-                let sum = R::load_wide(&liquid[part..]) + m.d_rho;
-                R::store_wide(sum, &mut liquid[part..]);
+                R::add_wide(m.d_rho, &mut liquid[part..]);
             }
             if !ordinary {
                 stage.keep::<R>(&m, omega, part);

@@ -6,10 +6,16 @@ use super::layout::Layout;
 use super::rim::Rim;
 use super::sources::Sources;
 use super::surface::{InterfaceCell, Lanes};
-use crate::solver::setup::{Face, Setup};
+use crate::solver::setup::{Face, Precision, Setup};
 
-/// Cells per pack.
-pub const LINE: usize = <f64 as Element>::PER_LINE;
+/// Cells per pack: a line of the cache.
+#[must_use]
+pub const fn line(precision: Precision) -> usize {
+    match precision {
+        Precision::Double => <f64 as Element>::PER_LINE,
+        Precision::Single | Precision::SingleStorage => <f32 as Element>::PER_LINE,
+    }
+}
 
 /// Links of a cell on a plane wall, mirror plane or open face; most irregular cells are of this kind.
 const LINKS: u64 = 5;
@@ -25,10 +31,10 @@ pub const fn rim_bytes(corrected: bool) -> u64 {
     kept + (size_of::<RimCell>() as u64 + LINKS * size_of::<Link>() as u64) * 5 / 4
 }
 
-/// Of a block besides what its cells hold.
+/// Of a block besides what its cells hold; `line`: cells per pack.
 #[must_use]
-pub fn block_bytes(layout: &Layout, surface: bool) -> u64 {
-    let packs = layout.block_cells() / LINE;
+pub fn block_bytes(layout: &Layout, line: usize, surface: bool) -> u64 {
+    let packs = layout.block_cells() / line;
     let lanes = if surface { packs * size_of::<Lanes>() } else { 0 };
     let alignment = 2 * 64;
     (size_of::<Block>()
@@ -38,10 +44,10 @@ pub fn block_bytes(layout: &Layout, surface: bool) -> u64 {
         + lanes) as u64
 }
 
-/// Of the table of sources.
+/// Of the table of sources; `line`: cells per pack.
 #[must_use]
-pub fn sources_bytes(layout: &Layout) -> u64 {
-    if layout.is_straight() { (layout.block_cells() / LINE * size_of::<Sources>()) as u64 } else { 0 }
+pub fn sources_bytes(layout: &Layout, line: usize) -> u64 {
+    if layout.is_straight() { (layout.block_cells() / line * size_of::<Sources>()) as u64 } else { 0 }
 }
 
 /// Whether any cell may touch a wall.

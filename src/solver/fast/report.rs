@@ -1,6 +1,6 @@
 //! What a run in blocks tells about itself: the same sums in the same order as the plain backend.
 
-use super::element::Aligned;
+use super::element::{Aligned, Element};
 use super::run::FastRun;
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
@@ -10,7 +10,7 @@ use crate::solver::plain::cell;
 use crate::solver::run::{Fields, Ledger, Load, Run, Stopped, Totals};
 use crate::solver::setup::Setup;
 
-impl<P: Physics> FastRun<P> {
+impl<P: Physics, E: Element> FastRun<P, E> {
     /// Block and place of every fluid cell, with its number in the box, in the order of the box.
     pub(super) fn in_order(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
         let cells = self.layout.block_cells();
@@ -33,7 +33,7 @@ impl<P: Physics> FastRun<P> {
     }
 }
 
-impl<P: Physics> Run for FastRun<P> {
+impl<P: Physics, E: Element> Run for FastRun<P, E> {
     fn advance(&mut self, steps: u64) -> Result<(), Stopped> {
         self.run(steps)
     }
@@ -149,7 +149,7 @@ impl<P: Physics> Run for FastRun<P> {
         let blocks: u64 = self.blocks.iter().map(super::block::Block::bytes).sum();
         let marks = self.setup.solids.len() + self.setup.fluid_of_cell.len();
         let surface = self.surface.as_ref().map_or(0, super::surface::Surface::bytes);
-        let sources = super::memory::sources_bytes(&self.layout);
+        let sources = super::memory::sources_bytes(&self.layout, E::PER_LINE);
         populations + (rim + numbers + marks) as u64 + blocks + self.layout.bytes() + sources + surface
     }
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::block::{Block, From, Place, Velocities, numbers_around};
 use super::element::{Aligned, Element};
-use super::instructions::{self, Chosen};
+use super::instructions::{self, Chosen, Passes};
 use super::kernel::{Outcome, Own, Task, block_len, index};
 use super::layout::{Layout, NONE};
 use super::rim::{Rim, WallTask};
@@ -26,18 +26,20 @@ use crate::solver::setup::{Setup, WallRule, YieldTreatment};
 const CACHED: u64 = 24 << 20;
 
 /// A flow being stepped in blocks.
-pub struct FastRun<P> {
+pub struct FastRun<P, E: Element = f64> {
     pub(super) setup: Setup,
     pub(super) physics: P,
     pub(super) chosen: Chosen,
+    /// The passes over one block, in the precision of the run.
+    pub(super) passes: Passes<P, E>,
     pub(super) layout: Layout,
     pub(super) sources: Vec<Sources>,
     pub(super) velocities: Velocities,
     pub(super) blocks: Vec<Block>,
     /// Populations after the last collision; before the first one at step 0.
-    pub(super) old: Vec<Aligned<f64>>,
+    pub(super) old: Vec<Aligned<E>>,
     /// Where the next collision puts its result.
-    pub(super) new: Vec<Aligned<f64>>,
+    pub(super) new: Vec<Aligned<E>>,
     pub(super) rim: Vec<Vec<Rim>>,
     /// ρ − 1 before the last collision; only with the viscosity-independent wall.
     pub(super) density: Vec<Vec<f64>>,
@@ -53,15 +55,17 @@ pub struct FastRun<P> {
     pub(super) pool: Option<rayon::ThreadPool>,
 }
 
-/// Cells per pack of the blocks.
-pub(super) const LINE: usize = <f64 as Element>::PER_LINE;
-
-impl<P: Physics> FastRun<P> {
+impl<P: Physics, E: Element> FastRun<P, E> {
     /// Allocates and initialises.
     ///
     /// # Errors
     /// The setup is inconsistent, or asks for what this backend does not have.
-    pub fn start(setup: &Setup, physics: P, chosen: Chosen) -> Result<Self, StartError> {
+    pub fn start(
+        setup: &Setup,
+        physics: P,
+        chosen: Chosen,
+        passes: Passes<P, E>,
+    ) -> Result<Self, StartError> {
         crate::solver::check::check(setup)?;
         let unsupported = |feature| StartError::Unsupported { backend: "fast", feature };
         if setup.stress_source {
@@ -73,12 +77,13 @@ impl<P: Physics> FastRun<P> {
         let pool = (setup.threads > 1)
             .then(|| rayon::ThreadPoolBuilder::new().num_threads(setup.threads).build().ok())
             .flatten();
-        let layout = Layout::new(setup.extents, LINE);
+        let layout = Layout::new(setup.extents, E::PER_LINE);
         let mut run = Self {
             setup: setup.clone(),
             physics,
             chosen,
-            sources: Sources::all::<f64>(&layout),
+            passes,
+            sources: Sources::all::<E>(&layout),
             layout,
             velocities: Velocities::default(),
             blocks: Vec::new(),
@@ -112,7 +117,7 @@ impl<P: Physics> FastRun<P> {
 
     /// Makes the block at a place, unless it would hold no cell that can be fluid; returns its number.
     pub(super) fn add_block(&mut self, place: usize) -> Option<usize> {
-        let block = Block::new(&self.setup, &self.layout, place, LINE, &mut self.velocities);
+        let block = Block::new(&self.setup, &self.layout, place, E::PER_LINE, &mut self.velocities);
         if block.usable.iter().all(|&lanes| lanes == 0) {
             return None;
         }
@@ -137,10 +142,10 @@ impl<P: Physics> FastRun<P> {
     fn fill_in(&mut self) {
         let force = self.setup.force.at(0);
         let (setup, layout) = (&self.setup, &self.layout);
-        let work = |((block, old), lag): ((&Block, &mut Aligned<f64>), &mut Vec<f64>)| {
+        let work = |((block, old), lag): ((&Block, &mut Aligned<E>), &mut Vec<f64>)| {
             let mut count = 0;
             for local in 0..layout.block_cells() {
-                if block.usable[local / LINE] >> (local % LINE) & 1 == 0 {
+                if block.usable[local / E::PER_LINE] >> (local % E::PER_LINE) & 1 == 0 {
                     continue;
                 }
                 count += 1;
@@ -149,7 +154,7 @@ impl<P: Physics> FastRun<P> {
                 let cell = setup.index(at);
                 let f = initial::start(&point, &setup.law(cell), &force);
                 for (i, f) in f.iter().enumerate() {
-                    old.get_mut()[index::<f64>(local, i)] = *f;
+                    old.get_mut()[index::<E>(local, i)] = E::from_f64(*f);
                 }
                 if let Some(omega) = lag.get_mut(local) {
                     *omega = starting_omega(setup, cell);
@@ -167,7 +172,7 @@ impl<P: Physics> FastRun<P> {
         };
     }
 
-    pub(super) fn task(&self, force: [f64; 3]) -> Task<'_, P, f64> {
+    pub(super) fn task(&self, force: [f64; 3]) -> Task<'_, P, E> {
         Task {
             setup: &self.setup,
             physics: &self.physics,
@@ -237,9 +242,9 @@ impl<P: Physics> FastRun<P> {
                 interface,
             })
             .collect();
-        let chosen = self.chosen;
+        let (chosen, collide) = (self.chosen, self.passes.collide);
         let outcomes = each(self.pool.as_ref(), own, |mut own| {
-            let outcome = instructions::run(chosen, &task, &mut own);
+            let outcome = collide(chosen, &task, &mut own);
             stores::fence();
             outcome
         });
@@ -299,7 +304,7 @@ impl<P: Physics> FastRun<P> {
             return cell.f;
         }
         let block = &self.blocks[number];
-        let mut links = block.links_of_cell(local, LINE).iter().peekable();
+        let mut links = block.links_of_cell(local, E::PER_LINE).iter().peekable();
         // Most cells have all their neighbours in their own block.
         let mut around = None;
         let mut f = own;
@@ -311,13 +316,13 @@ impl<P: Physics> FastRun<P> {
                     _ => around.get_or_insert_with(|| numbers_around(&self.layout, block.place))[entry]
                         as usize,
                 };
-                f[i] = self.old[there].get()[index::<f64>(from, i)];
+                f[i] = self.old[there].get()[index::<E>(from, i)].to_f64();
                 continue;
             };
             f[i] = match link.from {
                 From::Cell { cell, direction } => {
                     let number = self.layout.block_at(cell.block as usize) as usize;
-                    self.old[number].get()[index::<f64>(cell.local as usize, usize::from(direction))]
+                    self.old[number].get()[index::<E>(cell.local as usize, usize::from(direction))].to_f64()
                 }
                 From::Wall { velocity, .. } => {
                     let u = &self.velocities.list[velocity as usize];

@@ -299,7 +299,7 @@ pub fn density_at_wall<P, E: Element>(
     if *velocity == [0.0; 3] { 1.0 } else { 1.0 + density_excess(&after(task, number, local)) }
 }
 
-/// What a wall sends back along a link \[B1\] \[B3\].
+/// What a wall sends back along a link \[B1\] \[B3\], as it is stored.
 #[inline]
 pub fn wall_link<P: Physics, E: Element>(
     task: &Task<P, E>,
@@ -312,10 +312,17 @@ pub fn wall_link<P: Physics, E: Element>(
     let out = opposite(usize::from(link.direction));
     let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
     let correction = rim.get(usize::from(link.rim)).map_or(0.0, |kept| kept.correction[out]);
-    task.physics.wall(leaving - correction, out, rho, velocity)
+    stored::<E>(task.physics.wall(leaving - correction, out, rho, velocity))
 }
 
-/// What an open face sends back: as gas where fluid leaves, as a wall at rest where it would come in.
+/// What is left of a number when it is stored: the ledger books what the cell gets.
+#[inline(always)]
+fn stored<E: Element>(x: f64) -> f64 {
+    E::from_f64(x).to_f64()
+}
+
+/// What an open face sends back, as it is stored: as gas where fluid leaves, as a wall at rest where it would
+/// come in.
 #[inline]
 pub fn open_link<P: Physics, E: Element>(
     task: &Task<P, E>,
@@ -327,7 +334,7 @@ pub fn open_link<P: Physics, E: Element>(
     let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
     let u = rim.get(usize::from(link.rim)).map_or([0.0; 3], |kept| kept.velocity);
     if crate::lattice::equilibrium::dot(out, &u) > 0.0 {
-        task.physics.gas_link(leaving, out, &u, || leaving)
+        stored::<E>(task.physics.gas_link(leaving, out, &u, || leaving))
     } else {
         leaving
     }

@@ -39,7 +39,7 @@ macro_rules! register {
      $up:expr, $down:expr) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
-        pub(super) struct $name($reg);
+        pub(super) struct $name(pub(super) $reg);
 
         operator!($name, Add, add, $add);
         operator!($name, Sub, sub, $sub);
@@ -56,6 +56,16 @@ macro_rules! register {
         }
 
         impl $name {
+            /// First numbers of a slice.
+            #[inline(always)]
+            pub(super) fn load(from: &[f64]) -> Self {
+                <$lanes as Registers>::load(from)
+            }
+            /// Into the first numbers of a slice.
+            #[inline(always)]
+            pub(super) fn store(self, to: &mut [f64]) {
+                <$lanes as Registers>::store(self, to);
+            }
             #[inline(always)]
             fn from_array(x: [f64; $width]) -> Self {
                 // SAFETY: the array holds as many numbers as the register; see the head of the file.

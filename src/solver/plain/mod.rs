@@ -11,7 +11,7 @@ use crate::collision::{Bgk, CentralMoment, CollisionChoice};
 use crate::rheology::{Bingham, HerschelBulkley, Law, Newtonian};
 use crate::solver::physics::{Physics, Standard};
 use crate::solver::run::{Backend, Run, StartError};
-use crate::solver::setup::{Setup, YieldTreatment};
+use crate::solver::setup::{Precision, Setup, YieldTreatment};
 
 pub use run::{PlainRun, starting_omega};
 pub use surface::SurfaceRun;
@@ -27,6 +27,10 @@ impl Backend for Plain {
 
     fn start(&self, setup: &Setup) -> Result<Box<dyn Run>, StartError> {
         crate::solver::check::check(setup)?;
+        if setup.precision != Precision::Double {
+            let feature = "populations in single precision";
+            return Err(StartError::Unsupported { backend: "plain", feature });
+        }
         let treatment = setup.yielding;
         // The common laws and operators get a loop of their own; the others, and several fluids, share
         // one that chooses per cell. The bits are the same either way, the speed is not. Below a free

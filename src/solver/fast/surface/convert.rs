@@ -10,11 +10,12 @@ use crate::free_surface::marks::{Mark, Touches, mark};
 use crate::lattice::Q;
 use crate::lattice::moments::{density_excess, moments};
 use crate::solver::conversion::{Cells, convert, fill_of, touch, verdict};
+use crate::solver::fast::element::Element;
 use crate::solver::fast::run::{FastRun, each};
 use crate::solver::physics::Physics;
 use crate::solver::setup::YieldTreatment;
 
-impl<P: Physics> FastRun<P> {
+impl<P: Physics, E: Element> FastRun<P, E> {
     /// Marks, conversions, refill and excess of one step; then φ of every interface cell.
     pub(super) fn convert_cells(&mut self, force: &[f64; 3]) {
         let marks = self.marks();
@@ -117,11 +118,11 @@ impl<P: Physics> FastRun<P> {
             }
             (Ok(_) | Err(_), None) => {}
         }
-        surface.list_lanes(number);
+        surface.list_lanes(number, E::PER_LINE);
     }
 }
 
-impl<P: Physics> Cells for FastRun<P> {
+impl<P: Physics, E: Element> Cells for FastRun<P, E> {
     fn source(&self, cell: usize, i: usize) -> Source {
         resolve(&self.setup, self.setup.coordinates(cell), i).0
     }

@@ -10,7 +10,7 @@ use crate::lattice::{Q, opposite};
 use crate::solver::books::{CellEntries, Crossing, Entries};
 use crate::solver::conversion::touch;
 use crate::solver::fast::block::{Block, From, Link, numbers_around};
-use crate::solver::fast::instructions;
+use crate::solver::fast::element::Element;
 use crate::solver::fast::kernel::{Task, index};
 use crate::solver::fast::layout::NONE;
 use crate::solver::fast::run::{FastRun, each};
@@ -24,8 +24,8 @@ struct Brought {
 }
 
 /// A block while its interface cells stream.
-pub struct Streaming<'a, P> {
-    pub(super) task: &'a Task<'a, P, f64>,
+pub struct Streaming<'a, P, E> {
+    pub(super) task: &'a Task<'a, P, E>,
     surface: &'a Surface,
     rim: &'a [super::super::rim::Rim],
     pub(super) block: &'a Block,
@@ -34,7 +34,7 @@ pub struct Streaming<'a, P> {
     around: [u32; 27],
 }
 
-impl<P: Physics> FastRun<P> {
+impl<P: Physics, E: Element> FastRun<P, E> {
     /// Streams interface cells and books all links that bring something in.
     pub(super) fn exchange(&mut self, force: &[f64; 3]) {
         let Some(surface) = &mut self.surface else { return };
@@ -63,7 +63,7 @@ impl<P: Physics> FastRun<P> {
                     n => surface.fill[n as usize].as_slice(),
                 });
                 let near = Near { populations: Around::new(&task, number), fill };
-                instructions::exchange(self.chosen, &streaming, &near, list, &mut brought.entries);
+                (self.passes.exchange)(self.chosen, &streaming, &near, list, &mut brought.entries);
             }
             streaming.book_liquid(returned, &mut brought.entries);
             brought
@@ -81,7 +81,7 @@ impl<P: Physics> FastRun<P> {
     }
 }
 
-impl<P: Physics> Streaming<'_, P> {
+impl<P: Physics, E: Element> Streaming<'_, P, E> {
     /// Populations, Δm and neighbours of an interface cell.
     #[inline(never)]
     pub(super) fn stream(&self, cell: &mut InterfaceCell, entries: &mut Entries) {
@@ -91,7 +91,7 @@ impl<P: Physics> Streaming<'_, P> {
         let rho = 1.0 + density_excess(&own);
         // An interface cell's own φ; that of a liquid neighbour is not used.
         let fill = self.surface.fill[self.number][local];
-        let mut links = self.block.links_of_cell(local, super::LINE).iter().peekable();
+        let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
         let mut arrived = own;
         let mut gained = [0.0; Q];
         let mut touches = 0;
@@ -126,7 +126,7 @@ impl<P: Physics> Streaming<'_, P> {
                             touches |= touch::LIQUID;
                         }
                         let number = number as usize;
-                        arrived[i] = self.task.old[number].get()[index::<f64>(local, direction)];
+                        arrived[i] = self.task.old[number].get()[index::<E>(local, direction)].to_f64();
                         let other = self.surface.fill[number][local];
                         let share = physics.wetted_share(kind, fill, other, || [0.0; 2]);
                         gained[i] = physics.link_mass(share, arrived[i], own[out], || [0.0; 2]);
@@ -195,12 +195,12 @@ impl<P: Physics> Streaming<'_, P> {
                 // A liquid cell touches no gas.
                 End::Cell { direction, .. } if direction == i => continue,
                 End::Cell { number, local, direction } => {
-                    let arrived = self.task.old[number as usize].get()[index::<f64>(local, direction)];
+                    let arrived = self.task.old[number as usize].get()[index::<E>(local, direction)].to_f64();
                     (arrived, Source::Cell { cell: 0, direction: direction as u8 })
                 }
             };
             *back = arrived;
-            let leaving = own[index::<f64>(local, opposite(i))];
+            let leaving = own[index::<E>(local, opposite(i))].to_f64();
             let crossing = Crossing { i, leaving, arrived, share: 1.0, liquid: true };
             booked.link(&crossing, &source, false, entries);
         }

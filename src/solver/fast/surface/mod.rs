@@ -15,8 +15,9 @@ use std::collections::BTreeMap;
 
 pub(super) use start::put;
 
+use super::element::Element;
 use super::kernel::Outcome;
-use super::run::{FastRun, LINE};
+use super::run::FastRun;
 use crate::free_surface::Kind;
 use crate::free_surface::force::interface_force;
 use crate::lattice::Q;
@@ -130,22 +131,22 @@ impl Surface {
         list.binary_search_by_key(&local, |cell| usize::from(cell.local)).ok().map(|k| &list[k])
     }
 
-    /// Kinds of a block into bits.
-    fn list_lanes(&mut self, number: usize) {
-        let mut lanes = vec![Lanes::default(); self.kinds[number].len() / LINE];
+    /// Kinds of a block into bits; `line`: cells per pack.
+    fn list_lanes(&mut self, number: usize, line: usize) {
+        let mut lanes = vec![Lanes::default(); self.kinds[number].len() / line];
         for (local, kind) in self.kinds[number].iter().enumerate() {
-            let lane = &mut lanes[local / LINE];
-            lane.fluid |= u16::from(kind.is_fluid()) << (local % LINE);
-            lane.interface |= u16::from(*kind == Kind::Interface) << (local % LINE);
+            let lane = &mut lanes[local / line];
+            lane.fluid |= u16::from(kind.is_fluid()) << (local % line);
+            lane.interface |= u16::from(*kind == Kind::Interface) << (local % line);
         }
         for cell in &self.interface[number] {
-            lanes[usize::from(cell.local) / LINE].kept |= 1 << (usize::from(cell.local) % LINE);
+            lanes[usize::from(cell.local) / line].kept |= 1 << (usize::from(cell.local) % line);
         }
         self.lanes[number] = lanes;
     }
 }
 
-impl<P: Physics> FastRun<P> {
+impl<P: Physics, E: Element> FastRun<P, E> {
     /// Streaming, mass exchange and conversions of the step whose collision is done.
     pub(super) fn surface_pass(&mut self, force: &[f64; 3]) {
         if self.surface.is_none() {
@@ -170,7 +171,7 @@ impl<P: Physics> FastRun<P> {
             let before = list.len();
             list.retain(|cell| kinds[usize::from(cell.local)] == Kind::Interface);
             if list.len() != before {
-                surface.list_lanes(number);
+                surface.list_lanes(number, E::PER_LINE);
             }
         }
     }
@@ -225,7 +226,8 @@ impl<P: Physics> FastRun<P> {
         mass += surface.counts[0] as f64;
         mass += surface.parked.values().sum::<f64>();
         let cells = surface.counts[0] + surface.counts[1];
-        let Some((residual, bound)) = surface.books.close(mass, cells) else { return Ok(()) };
+        let rounding = self.setup.precision.rounding();
+        let Some((residual, bound)) = surface.books.close(mass, cells, rounding) else { return Ok(()) };
         if self.physics.is_mutant() {
             return Ok(());
         }

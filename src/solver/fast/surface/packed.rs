@@ -18,9 +18,9 @@ use crate::solver::fast::stage::{Around, MOST};
 use crate::solver::physics::Physics;
 
 /// What the exchange reads around a block.
-pub struct Near<'a> {
+pub struct Near<'a, E> {
     /// Populations after the last collision.
-    pub populations: Around<'a, f64>,
+    pub populations: Around<'a, E>,
     /// φ of interface cells, and what stands for the others ([`share_with`]).
     pub fill: [&'a [f64]; 27],
 }
@@ -54,10 +54,10 @@ impl Columns {
 
     /// Populations, Δm and neighbours of the lanes of one part of a pack.
     #[inline(always)]
-    fn stream<R: Registers<Element = f64>, P: Physics>(
+    fn stream<R: Registers, P: Physics>(
         &mut self,
         physics: &P,
-        near: &Near,
+        near: &Near<R::Element>,
         sources: &Sources,
         local: usize,
         part: usize,
@@ -65,7 +65,7 @@ impl Columns {
         let (zero, one) = (R::Pack::zero(), R::Pack::one());
         let own = directions(
             #[inline(always)]
-            |i| R::load_at(near.populations.entry(13), index::<f64>(local, i) + part),
+            |i| R::load_at(near.populations.entry(13), index::<R::Element>(local, i) + part),
         );
         let from = gather::<R>(&near.populations, sources, part);
         let fill = R::load_wide(&near.fill[13][local + part..]);
@@ -138,11 +138,11 @@ impl Columns {
     }
 }
 
-/// Streams all interface cells of a block: those with irregular links one by one, the others side by side.
+/// Streams all interface cells of a block, with registers that compute in f64: those with irregular links one by one, the others side by side.
 #[inline(always)]
-pub fn stream_block<R: Registers<Element = f64>, P: Physics>(
-    streaming: &Streaming<P>,
-    near: &Near,
+pub fn stream_block<R: Registers, P: Physics>(
+    streaming: &Streaming<P, R::Element>,
+    near: &Near<R::Element>,
     list: &mut [InterfaceCell],
     entries: &mut Entries,
 ) {

@@ -4,6 +4,7 @@ use super::Surface;
 use crate::free_surface::Kind;
 use crate::free_surface::ledger::{Sum, VectorSum};
 use crate::lattice::moments::{Moments, density_excess, momentum};
+use crate::solver::fast::element::Element;
 use crate::solver::fast::run::FastRun;
 use crate::solver::fingerprint::Hasher;
 use crate::solver::physics::Physics;
@@ -11,7 +12,7 @@ use crate::solver::run::{Fields, Ledger};
 
 impl Surface {
     /// Fill and kind of every cell of the box.
-    pub fn start_fields<P: Physics>(&self, run: &FastRun<P>, fields: &mut Fields) {
+    pub fn start_fields<P: Physics, E: Element>(&self, run: &FastRun<P, E>, fields: &mut Fields) {
         let cells = run.setup.cells();
         fields.fill = vec![0.0; cells];
         let kind = |cell: usize| if run.setup.is_solid(cell) { Kind::Solid } else { Kind::Gas } as u8;
@@ -72,7 +73,7 @@ impl Surface {
     }
 }
 
-impl<P: Physics> FastRun<P> {
+impl<P: Physics, E: Element> FastRun<P, E> {
     pub(super) fn open_books(&mut self) {
         let (mass, momentum) = self.mass_and_momentum();
         if let Some(surface) = &mut self.surface {

@@ -7,6 +7,7 @@ use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
 use crate::solver::books::Books;
+use crate::solver::fast::element::Element;
 use crate::solver::fast::kernel::index;
 use crate::solver::fast::run::FastRun;
 use crate::solver::fast::surface::InterfaceCell;
@@ -16,7 +17,7 @@ use crate::solver::plain::starting_omega;
 use crate::solver::run::{Load, StartError};
 use crate::solver::setup::{FlowPoint, SurfaceForce};
 
-impl<P: Physics> FastRun<P> {
+impl<P: Physics, E: Element> FastRun<P, E> {
     /// Blocks, populations, masses and the ledger.
     ///
     /// # Errors
@@ -91,7 +92,7 @@ impl<P: Physics> FastRun<P> {
         let surface = self.surface.as_mut()?;
         put(&mut surface.kinds, number, kinds);
         put(&mut surface.fill, number, vec![GAS; cells]);
-        put(&mut surface.lanes, number, vec![Lanes::default(); cells / super::LINE]);
+        put(&mut surface.lanes, number, vec![Lanes::default(); cells / E::PER_LINE]);
         put(&mut surface.interface, number, Vec::new());
         put(&mut surface.returned, number, vec![0.0; self.blocks[number].links.len()]);
         Some(number)
@@ -128,7 +129,7 @@ impl<P: Physics> FastRun<P> {
             let here = surface.force_at(number, local, force).unwrap_or(*force);
             let f = initial::start(&point, &setup.law(cell), &here);
             for (i, f) in f.iter().enumerate() {
-                self.old[number].get_mut()[index::<f64>(local, i)] = *f;
+                self.old[number].get_mut()[index::<E>(local, i)] = E::from_f64(*f);
             }
             surface.counts[usize::from(kinds[cell] == Kind::Interface)] += 1;
             if kinds[cell] == Kind::Interface {
@@ -139,7 +140,7 @@ impl<P: Physics> FastRun<P> {
                 surface.interface[number].push(InterfaceCell { local, touches: 0, f, rho, velocity, mass });
             }
         }
-        surface.list_lanes(number);
+        surface.list_lanes(number, E::PER_LINE);
     }
 }
 

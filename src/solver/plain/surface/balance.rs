@@ -79,7 +79,9 @@ impl<P: Physics> SurfaceRun<P> {
     /// its fill.
     pub(super) fn close_books(&mut self) -> Result<(), Stopped> {
         let (mass, cells) = (self.total_mass(), self.fluid_count());
-        let Some((residual, bound)) = self.books.close(mass, cells) else { return Ok(()) };
+        let Some((residual, bound)) = self.books.close(mass, cells, self.setup.precision.rounding()) else {
+            return Ok(());
+        };
         if self.physics.is_mutant() {
             return Ok(());
         }

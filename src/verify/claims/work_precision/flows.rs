@@ -20,7 +20,7 @@ use super::steady::until_it_stays;
 use crate::verify::claims::viscosity::vortices::{centre, flat, vortex_setup};
 
 /// Lattice velocity of the channels: no error from compressibility.
-const SPEED: f64 = 1e-3;
+pub(super) const SPEED: f64 = 1e-3;
 
 /// Largest and least apparent viscosity of the papers' scheme over the plastic one: 80/3 Pa s, their
 /// τ = 1.5, and a thousandth of it, τ = 0.501, over the 0.2 Pa s of the channel.
@@ -173,7 +173,8 @@ impl Trial {
         until_it_stays(backend, &setup, ideal.relaxation_steps()?, budget, &error)
     }
 
-    fn vortex_setup(&self) -> (TaylorGreen2d, Setup) {
+    /// The vortices and their set-up.
+    pub(super) fn vortex_setup(&self) -> (TaylorGreen2d, Setup) {
         let k = core::f64::consts::TAU / self.n;
         let flow = TaylorGreen2d {
             plane: Plane::Xy,
@@ -204,7 +205,7 @@ impl Trial {
     }
 
     /// A film of this many cells, at the time step of this trial.
-    fn sheet(&self, depth: f64) -> Sheet {
+    pub(super) fn sheet(&self, depth: f64) -> Sheet {
         const DRIVE: f64 = 0.04;
         let gravity = DRIVE / (depth * depth * depth) * self.step * self.step;
         let load = gravity * libm::sin(SLOPE) * depth;
@@ -221,7 +222,8 @@ impl Trial {
         Sheet::new(law, depth, gravity)
     }
 
-    fn film_setup(&self, sheet: &Sheet) -> Setup {
+    /// Its set-up.
+    pub(super) fn film_setup(&self, sheet: &Sheet) -> Setup {
         let mut setup = sheet.setup();
         put(self.scheme, 0.1 * self.step, &mut setup);
         setup

@@ -7,6 +7,7 @@ mod claims;
 mod exhibits;
 mod flows;
 mod points;
+mod precision;
 mod releases;
 mod steady;
 mod times;
@@ -31,15 +32,19 @@ pub static STUDY: Study = Study {
         claims::ORDER_VORTEX,
         claims::ORDER_FILM,
         claims::BACKENDS,
+        precision::CHANNEL,
+        precision::FLOWS,
+        precision::MASS,
     ],
-    exhibits: &[exhibits::POINTS, exhibits::TIMES],
+    exhibits: &[exhibits::POINTS, precision::ERRORS, exhibits::TIMES],
     mutants: &[],
     limits: &[
         "A heap that slumps has no exact solution. Its reference in *Work and precision* is lahar's own finest run with \
          the default scheme, so an error that all grids share does not show; the study of slumps compares with theory.",
         "The dam break of *Work and precision* is compared with lubrication theory, which itself is off by a few per \
          cent: smaller errors than that cannot be seen there, and no choice is recommended for them.",
-        "*Work and precision* has populations in double precision only.",
+        "The table of runs, the speeds and the recommendations of *Work and precision* are in double precision; what single \
+         precision changes is shown apart, in `single-precision-errors`.",
     ],
     agreement: Agreement::Bits,
 };
