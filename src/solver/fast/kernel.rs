@@ -63,6 +63,8 @@ pub struct Own<'a, E> {
     pub density: &'a mut [f64],
     /// ω⁺ of the previous step; empty unless lagged.
     pub lag: &'a mut [f64],
+    /// u by cell, x then y then z; empty unless the surface force has inertia.
+    pub velocity: &'a mut [f64],
     /// Interface cells of the block.
     pub interface: &'a mut [InterfaceCell],
 }
@@ -176,6 +178,12 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
             }
             if !own.density.is_empty() {
                 R::store_wide(m.d_rho, &mut own.density[local + part..]);
+            }
+            if !own.velocity.is_empty() {
+                let cells = own.velocity.len() / 3;
+                for a in 0..3 {
+                    R::store_wide(m.u[a], &mut own.velocity[a * cells + local + part..]);
+                }
             }
             if task.surface.is_some() && ordinary {
                 R::add_wide(m.d_rho, &mut liquid[part..]);
