@@ -204,6 +204,8 @@ fn build((faces, (surface, (extents, seed), laws, scheme)): Recipe) -> Setup {
         }
         if seed.is_multiple_of(5) {
             rules.force = SurfaceForce::Full;
+        } else if seed % 5 == 1 {
+            rules.force = SurfaceForce::ByFillAndInertia;
         }
         setup.free_surface = Some(rules);
     } else if seed.is_multiple_of(4) {

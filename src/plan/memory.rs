@@ -253,7 +253,11 @@ pub fn fast_bytes(setup: &Setup) -> u64 {
     if setup.free_surface.is_some() {
         per_cell += 1 + 8;
     }
-    let per_rim = fast::rim_bytes(corrected);
+    if setup.free_surface.as_ref().is_some_and(|surface| surface.force == SurfaceForce::ByFillAndInertia) {
+        // Velocities of two collisions and the acceleration.
+        per_cell += 3 * 24;
+    }
+    let per_rim = fast::rim_bytes(corrected, setup.free_surface.is_some());
     let table = layout.bytes() + fast::sources_bytes(&layout, line);
     cells * per_cell
         + count * fast::block_bytes(&layout, line, setup.free_surface.is_some())

@@ -23,6 +23,9 @@ pub use prepared::Prepared;
 
 /// A monotone law σ(γ̇) in lattice units, ready for use in every cell.
 pub trait Rheology: Clone + Send + Sync + 'static {
+    /// Whether the relaxation time can depend on the flow. A law that says no gives a [`Self::constant_tau`].
+    const VARIES: bool = true;
+
     /// The relaxation time, if it is the same at every shear rate \[L6\]: then no shear rate is
     /// computed. The kinematic viscosity is held constant, at ρ = 1.
     #[inline(always)]

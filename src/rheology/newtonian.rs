@@ -11,6 +11,8 @@ pub struct Newtonian {
 }
 
 impl Rheology for Newtonian {
+    const VARIES: bool = false;
+
     /// τ = ½ + 3ν \[L6\].
     ///
     /// # Source

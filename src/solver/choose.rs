@@ -3,7 +3,7 @@
 use super::fast::Fast;
 use super::plain::Plain;
 use super::run::{Backend, Run, StartError};
-use super::setup::{Precision, Setup, SurfaceForce};
+use super::setup::{Precision, Setup};
 
 /// The fast backend, and the plain one for what only that has ([`only_plain`]): the bits are the same. Single
 /// precision is only in the fast one; together with what only the plain one has it is refused by name.
@@ -29,12 +29,5 @@ impl Backend for Best {
 /// What a setup asks for that only the plain backend has, if anything.
 #[must_use]
 pub fn only_plain(setup: &Setup) -> Option<&'static str> {
-    let inertia = |surface: &super::setup::FreeSurface| surface.force == SurfaceForce::ByFillAndInertia;
-    if setup.stress_source {
-        Some("the experimental source in the third moments")
-    } else if setup.free_surface.as_ref().is_some_and(inertia) {
-        Some("the surface force with inertia")
-    } else {
-        None
-    }
+    setup.stress_source.then_some("the experimental source in the third moments")
 }

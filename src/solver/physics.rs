@@ -27,6 +27,10 @@ pub trait Physics: Clone + Send + Sync + 'static {
         moments::magnitude(&moments::deviator(&m.q))
     }
 
+    /// Whether ω⁺ can differ from cell to cell: `false` if this type of physics has [`Self::constant_omega`], with
+    /// one fluid at least.
+    const VARIES: bool = true;
+
     /// Whether ω⁺ is the same everywhere and always, so that no stress magnitude is computed.
     fn constant_omega(&self) -> Option<f64>;
 
@@ -119,6 +123,8 @@ pub struct Standard<R, C> {
 }
 
 impl<R: Rheology, C: Collision> Physics for Standard<R, C> {
+    const VARIES: bool = R::VARIES;
+
     fn constant_omega(&self) -> Option<f64> {
         match self.laws.as_slice() {
             [law] => law.constant_tau().map(|tau| 1.0 / tau),

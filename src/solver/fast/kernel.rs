@@ -29,9 +29,6 @@ use crate::solver::setup::Setup;
 /// takes. Lines of the block itself are asked for a whole block earlier.
 const FAR: usize = 16;
 
-/// Packs between moving a line to the first-level cache and using it.
-const NEAR: usize = 2;
-
 /// What all blocks of a pass share; everything here is only read.
 pub struct Task<'a, P, E> {
     pub setup: &'a Setup,
@@ -66,6 +63,8 @@ pub struct Own<'a, E> {
     pub density: &'a mut [f64],
     /// ω⁺ of the previous step; empty unless lagged.
     pub lag: &'a mut [f64],
+    /// u by cell, x then y then z; empty unless the surface force has inertia.
+    pub velocity: &'a mut [f64],
     /// Interface cells of the block.
     pub interface: &'a mut [InterfaceCell],
 }
@@ -118,7 +117,8 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
         Some(later) => Some((&around, later)),
         None => around_next.as_ref().zip(sources.get(pack.wrapping_sub(packs))),
     };
-    let constant = task.physics.constant_omega().map(R::Pack::splat);
+    let constant = task.physics.constant_omega().map(R::Pack::splat).filter(|_| P::VARIES);
+    let rate = R::Pack::splat(task.physics.constant_omega().unwrap_or(0.0));
     for pack in 0..packs {
         let local = pack * line;
         match pack + FAR {
@@ -127,9 +127,6 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
         }
         if let Some((around, sources)) = later(pack + FAR) {
             sources.prefetch_far(around);
-        }
-        if let Some((around, sources)) = later(pack + NEAR) {
-            sources.prefetch_near(around);
         }
         let class = Class::new(task, block, own.number, pack, line);
         if class.fluid == 0 {
@@ -171,6 +168,8 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
             let m = task.physics.moments(&h, &force);
             let omega = match constant {
                 Some(omega) => omega,
+                // Known when compiling, so that what follows from ω⁺ is computed once per block.
+                None if !P::VARIES => rate,
                 None => omega::<R, P>(task, block, own, local + part, &m),
             };
             guard::<R, P>(task, block, (local + part, class.fluid >> part), &m, omega, &mut outcome);
@@ -179,6 +178,12 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
             }
             if !own.density.is_empty() {
                 R::store_wide(m.d_rho, &mut own.density[local + part..]);
+            }
+            if !own.velocity.is_empty() {
+                let cells = own.velocity.len() / 3;
+                for a in 0..3 {
+                    R::store_wide(m.u[a], &mut own.velocity[a * cells + local + part..]);
+                }
             }
             if task.surface.is_some() && ordinary {
                 R::add_wide(m.d_rho, &mut liquid[part..]);

@@ -23,12 +23,14 @@ const LINKS: u64 = 5;
 /// Of an interface cell; lists grow by doubling, so that on average a quarter is idle.
 pub const INTERFACE_BYTES: u64 = size_of::<InterfaceCell>() as u64 * 5 / 4;
 
-/// Of a cell with irregular links; `corrected`: with what the wall correction keeps.
+/// Of a cell with irregular links; `corrected`: with what the wall correction keeps; `surface`: with what comes
+/// back along the links.
 #[must_use]
-pub const fn rim_bytes(corrected: bool) -> u64 {
+pub const fn rim_bytes(corrected: bool, surface: bool) -> u64 {
     let kept = if corrected { size_of::<Rim>() as u64 } else { 0 };
     // Lists grow by doubling here too.
-    kept + (size_of::<RimCell>() as u64 + LINKS * size_of::<Link>() as u64) * 5 / 4
+    let returned = if surface { LINKS * size_of::<f64>() as u64 } else { 0 };
+    kept + returned + (size_of::<RimCell>() as u64 + LINKS * size_of::<Link>() as u64) * 5 / 4
 }
 
 /// Of a block besides what its cells hold; `line`: cells per pack.

@@ -71,6 +71,9 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         if setup.stress_source {
             return Err(unsupported("the experimental source in the third moments"));
         }
+        if !P::VARIES && physics.constant_omega().is_none() {
+            return Err(unsupported("several Newtonian fluids in the pass made for one"));
+        }
         let pool = (setup.threads > 1)
             .then(|| rayon::ThreadPoolBuilder::new().num_threads(setup.threads).build().ok())
             .flatten();
@@ -222,20 +225,25 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let mut lag = std::mem::take(&mut self.lag);
         let mut interface = self.surface.as_mut().map_or_else(Vec::new, |s| std::mem::take(&mut s.interface));
         interface.resize_with(new.len(), Vec::new);
+        let inertia = self.surface.as_mut().and_then(|s| s.inertia.as_mut());
+        let mut velocity = inertia.map_or_else(Vec::new, |inertia| std::mem::take(&mut inertia.velocity));
+        velocity.resize_with(new.len(), Vec::new);
         let task = self.task(force);
         let own: Vec<_> = new
             .iter_mut()
             .zip(&mut rim)
             .zip(&mut density)
             .zip(&mut lag)
+            .zip(&mut velocity)
             .zip(&mut interface)
             .enumerate()
-            .map(|(number, ((((new, rim), density), lag), interface))| Own {
+            .map(|(number, (((((new, rim), density), lag), velocity), interface))| Own {
                 number,
                 new,
                 rim,
                 density,
                 lag,
+                velocity,
                 interface,
             })
             .collect();
@@ -248,6 +256,9 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         (self.new, self.rim, self.density, self.lag) = (new, rim, density, lag);
         if let Some(surface) = &mut self.surface {
             surface.interface = interface;
+            if let Some(inertia) = &mut surface.inertia {
+                inertia.velocity = velocity;
+            }
         }
         outcomes
     }

@@ -9,18 +9,24 @@ use super::stores;
 use crate::lane::unroll::directions;
 use crate::lattice::{C, Q};
 
-/// Sources of one pack, by direction, before the shift along the row: entry of the neighbourhood
-/// ([`Layout::around`]) and first number in that block.
+/// A line of the neighbourhood: entry ([`Layout::around`]) and first number in that block.
+type Line = (u32, u32);
+
+/// Sources of one pack.
 #[derive(Clone, Debug)]
 pub struct Sources {
-    from: [(u32, u32); Q],
-    /// The same place in an array with one number per cell.
+    /// By direction: the line before the shift along the row.
+    from: [Line; Q],
+    /// By direction: the line before or behind it in the row, of which the shift brings in one number; the line
+    /// itself where there is no shift.
+    edge: [Line; Q],
+    /// By direction: place of the pack of `from` in an array with one number per cell.
     cells: [u32; Q],
-    /// Numbers between the beginning of the row and the pack, and between the pack and the last one of the row.
+    /// Cells between the beginning of the row and the pack, and between the pack and the end of the row.
     before: u32,
     behind: u32,
-    /// Directions that come from rows of other blocks.
-    far: Vec<u8>,
+    /// Lines of other blocks.
+    far: Vec<Line>,
 }
 
 impl Sources {
@@ -37,13 +43,26 @@ impl Sources {
         let local = pack * E::PER_LINE;
         let row = layout.block[0];
         let x = layout.coordinates(local)[0];
-        let from = directions(|i| {
-            let (entry, first) = layout.upstream_row(local, i);
-            (entry as u32, index::<E>(first + x, i) as u32)
+        let upstream = directions(|i| layout.upstream_row(local, i));
+        let line = |entry: usize, cell: usize, i: usize| (entry as u32, index::<E>(cell, i) as u32);
+        let from = directions(|i| line(upstream[i].0, upstream[i].1 + x, i));
+        let edge = directions(|i| {
+            let (entry, first) = upstream[i];
+            match C[i][0] {
+                1 if x == 0 => line(entry - 1, first + row - E::PER_LINE, i),
+                1 => line(entry, first + x - E::PER_LINE, i),
+                -1 if x + E::PER_LINE == row => line(entry + 1, first, i),
+                -1 => line(entry, first + x + E::PER_LINE, i),
+                _ => from[i],
+            }
         });
-        let cells = directions(|i| (layout.upstream_row(local, i).1 + x) as u32);
-        let far = (0..Q as u8).filter(|&i| from[usize::from(i)].0 != 13).collect();
-        Self { from, cells, before: (x * Q) as u32, behind: ((row - x - E::PER_LINE) * Q) as u32, far }
+        let cells = directions(|i| (upstream[i].1 + x) as u32);
+        let mut far: Vec<Line> = from.iter().copied().filter(|line| line.0 != 13).collect();
+        // The end of a row that lies one block further in x has not been touched by the block before.
+        far.extend(
+            (0..Q).filter(|&i| C[i][0] == -1 && edge[i].0 > from[i].0 && from[i].0 != 13).map(|i| edge[i]),
+        );
+        Self { from, edge, cells, before: x as u32, behind: (row - x - E::PER_LINE) as u32, far }
     }
 
     /// Asks for the lines of other blocks long before they are used: they come from memory, without a pattern
@@ -52,29 +71,22 @@ impl Sources {
     /// work wait behind it.
     #[inline(always)]
     pub fn prefetch_far<E: Element>(&self, around: &Around<E>) {
-        for &i in &self.far {
-            let (entry, base) = self.from[usize::from(i)];
+        for &(entry, base) in &self.far {
             stores::prefetch_far(around.entry(entry as usize), base as usize);
-            // The end of a row that lies one block further has not been touched by the block before.
-            if C[usize::from(i)][0] == -1 && self.behind == 0 {
-                stores::prefetch_far(around.entry(entry as usize + 1), (base - self.before) as usize);
-            }
-        }
-    }
-
-    /// Asks for all lines of the pack just before they are used, from the second-level cache.
-    #[inline(always)]
-    pub fn prefetch_near<E: Element>(&self, around: &Around<E>) {
-        for (entry, base) in self.from {
-            stores::prefetch_near(around.entry(entry as usize), base as usize);
         }
     }
 }
+
+/// Packs between moving a line to the first-level cache and using it.
+const NEAR: usize = 2;
 
 /// The populations that arrive in part of an ordinary pack.
 ///
 /// Where they come from along the row, two neighbouring packs are loaded whole and shifted: a load across
 /// two lines takes as long as two loads, and to put a single number in takes two more operations.
+///
+/// Asks on the way for the lines that the pack after next will need: those of most packs follow each other
+/// in memory, and for the others the request does no harm.
 #[inline(always)]
 pub fn gather<R: Registers>(around: &Around<R::Element>, sources: &Sources, part: usize) -> [R::Pack; Q] {
     let line = R::Element::PER_LINE;
@@ -83,26 +95,25 @@ pub fn gather<R: Registers>(around: &Around<R::Element>, sources: &Sources, part
         |i| {
             let (entry, base) = (sources.from[i].0 as usize, sources.from[i].1 as usize);
             let from = around.entry(entry);
+            if part == 0 {
+                stores::prefetch_near(from, base + NEAR * Q * line);
+            }
             let pack = R::load_at(from, base + part);
+            let edge = (sources.edge[i].0 as usize, sources.edge[i].1 as usize);
             match C[i][0] {
                 1 => {
                     let before = if part > 0 {
                         R::load_at(from, base + part - R::WIDTH)
-                    } else if sources.before > 0 {
-                        R::load_at(from, base - Q * line + line - R::WIDTH)
                     } else {
-                        let last = base + sources.behind as usize + line - R::WIDTH;
-                        R::load_at(around.entry(entry - 1), last)
+                        R::load_at(around.entry(edge.0), edge.1 + line - R::WIDTH)
                     };
                     R::shifted_up(before, pack)
                 }
                 -1 => {
                     let behind = if part + R::WIDTH < line {
                         R::load_at(from, base + part + R::WIDTH)
-                    } else if sources.behind > 0 {
-                        R::load_at(from, base + Q * line)
                     } else {
-                        R::load_at(around.entry(entry + 1), base - sources.before as usize)
+                        R::load_at(around.entry(edge.0), edge.1)
                     };
                     R::shifted_down(pack, behind)
                 }
@@ -123,8 +134,8 @@ pub fn gather_cells<R: Registers>(
 ) -> R::Pack {
     let (entry, at) = (sources.from[i].0 as usize, sources.cells[i] as usize + part);
     // Of the row: what lies before the pack and behind it.
-    let before = sources.before as usize / Q + part;
-    let behind = sources.behind as usize / Q + R::Element::PER_LINE - part - R::WIDTH;
+    let before = sources.before as usize + part;
+    let behind = sources.behind as usize + R::Element::PER_LINE - part - R::WIDTH;
     let pack = R::load_wide(&fields[entry][at..]);
     match C[i][0] {
         1 => {

@@ -193,7 +193,7 @@ impl<E: Element> Stage<E> {
                 column[lane] = E::from_f64(*f);
             }
             if class.interface >> lane & 1 != 0 {
-                let force = surface.force_of(own.number, usize::from(cell.local), &task.force);
+                let force = surface.force_of(own.number, cell, &task.force);
                 for a in 0..3 {
                     self.force[a][lane] = force[a];
                 }

@@ -162,7 +162,8 @@ impl<P: Physics, E: Element> Cells for FastRun<P, E> {
         let f = self.populations(cell);
         let local = self.find(cell).map_or(0, |(_, local)| local as u16);
         let rho = 1.0 + density_excess(&f);
-        let record = InterfaceCell { local, touches: 0, f, rho, velocity: [0.0; 3], mass };
+        let record =
+            InterfaceCell { local, touches: 0, f, rho, velocity: [0.0; 3], mass, acceleration: [0.0; 3] };
         self.change(cell, Kind::Interface, None, Some(record));
     }
     fn wet(&mut self, cell: usize, populations: &[f64; Q]) {
@@ -173,8 +174,21 @@ impl<P: Physics, E: Element> Cells for FastRun<P, E> {
         let f = *populations;
         let velocity = moments(&f, &[0.0; 3]).u;
         let rho = 1.0 + density_excess(&f);
-        let record = InterfaceCell { local: local as u16, touches: 0, f, rho, velocity, mass: 0.0 };
+        let record = InterfaceCell {
+            local: local as u16,
+            touches: 0,
+            f,
+            rho,
+            velocity,
+            mass: 0.0,
+            acceleration: [0.0; 3],
+        };
         self.change(cell, Kind::Interface, None, Some(record));
+        if let Some((number, local)) = self.find(cell)
+            && let Some(inertia) = self.surface.as_mut().and_then(|surface| surface.inertia.as_mut())
+        {
+            inertia.wet(number, local, &velocity);
+        }
         if let (YieldTreatment::LaggedClamped { tau_max, .. }, Some((number, local))) =
             (self.setup.yielding, self.find(cell))
         {

@@ -54,8 +54,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             let rim = &self.rim[number];
             let streaming = Streaming { task: &task, surface, rim, block, number, around };
             for cell in list.iter() {
-                let local = usize::from(cell.local);
-                brought.force.add(&surface.view().force_of(number, local, force));
+                brought.force.add(&surface.view().force_of(number, cell, force));
             }
             if !list.is_empty() {
                 let fill = around.map(|n| match n {

@@ -7,6 +7,7 @@
 
 mod convert;
 pub mod exchange;
+mod inertia;
 pub mod packed;
 mod report;
 mod start;
@@ -25,6 +26,7 @@ use crate::solver::books::Books;
 use crate::solver::physics::Physics;
 use crate::solver::run::{Load, Runaway, Stopped};
 use crate::solver::setup::{FreeSurface, SurfaceForce};
+use inertia::Inertia;
 
 /// Steps between two searches for blocks that have run dry.
 const STEPS_PER_SEARCH: u64 = 64;
@@ -44,6 +46,8 @@ pub struct InterfaceCell {
     pub velocity: [f64; 3],
     /// m.
     pub mass: f64,
+    /// Mean smoothed acceleration of the liquid neighbours; zero unless the surface force has inertia.
+    pub acceleration: [f64; 3],
 }
 
 /// Lanes of a pack, a bit each.
@@ -73,8 +77,9 @@ impl SurfaceView<'_> {
     /// Body force of an interface cell \[F3\].
     #[inline]
     #[must_use]
-    pub fn force_of(&self, number: usize, local: usize, force: &[f64; 3]) -> [f64; 3] {
-        interface_force(self.rule, force, self.fill[number][local], &[0.0; 3])
+    pub fn force_of(&self, number: usize, cell: &InterfaceCell, force: &[f64; 3]) -> [f64; 3] {
+        let fill = self.fill[number][usize::from(cell.local)];
+        interface_force(self.rule, force, fill, &cell.acceleration)
     }
 }
 
@@ -97,6 +102,8 @@ pub struct Surface {
     pub(super) loads: Vec<Load>,
     /// Liquid and interface cells.
     pub(super) counts: [u64; 2],
+    /// Only for the surface force with inertia.
+    pub(super) inertia: Option<Inertia>,
     /// Numbers of blocks that were given up.
     pub(super) free: Vec<usize>,
     /// What walls and open faces sent back to liquid cells in the last step, by block and irregular link.
@@ -118,7 +125,12 @@ impl Surface {
     #[must_use]
     pub fn force_at(&self, number: usize, local: usize, force: &[f64; 3]) -> Option<[f64; 3]> {
         match self.kinds[number][local] {
-            Kind::Interface => Some(self.view().force_of(number, local, force)),
+            Kind::Interface => {
+                // Without a record at the very start, where nothing has been accelerated yet.
+                let record = self.inertia.as_ref().and_then(|_| self.record(number, local));
+                let acceleration = record.map_or([0.0; 3], |cell| cell.acceleration);
+                Some(interface_force(self.rules.force, force, self.fill[number][local], &acceleration))
+            }
             Kind::Liquid => Some(*force),
             Kind::Gas | Kind::Solid => None,
         }
@@ -154,7 +166,9 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         }
         self.drop_settled();
         self.exchange(force);
+        self.accelerate();
         self.convert_cells(force);
+        self.spread_acceleration();
         if self.step.is_multiple_of(STEPS_PER_SEARCH) {
             self.drop_dry_blocks();
         }
@@ -189,6 +203,9 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                     list[number] = Vec::new();
                 }
                 self.rim[number] = Vec::new();
+                if let Some(inertia) = &mut surface.inertia {
+                    inertia.drop_block(number);
+                }
                 surface.kinds[number] = Vec::new();
                 surface.lanes[number] = Vec::new();
                 self.blocks[number].clear();

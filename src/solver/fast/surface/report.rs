@@ -69,7 +69,8 @@ impl Surface {
         let records: usize =
             self.interface.iter().map(|list| list.capacity() * size_of::<super::InterfaceCell>()).sum();
         let returned: usize = self.returned.iter().map(|links| size_of_val(links.as_slice())).sum();
-        (kinds + fill + lanes + records + returned) as u64
+        let inertia = self.inertia.as_ref().map_or(0, super::inertia::Inertia::bytes);
+        (kinds + fill + lanes + records + returned) as u64 + inertia
     }
 }
 
@@ -117,6 +118,10 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             hasher.number(*mass);
         }
         for (_, number, local) in self.in_order() {
+            let inertia = self.surface.as_ref().and_then(|surface| surface.inertia.as_ref());
+            for a in inertia.map(|inertia| inertia.acceleration_of(number, local)).iter().flatten() {
+                hasher.number(*a);
+            }
             if let Some(omega) = self.lag[number].get(local) {
                 hasher.number(*omega);
             }

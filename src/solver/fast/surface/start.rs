@@ -1,5 +1,6 @@
 //! How a run with a free surface begins.
 
+use super::inertia::Inertia;
 use super::{Lanes, Surface};
 use crate::boundary::links::{Source, resolve};
 use crate::free_surface::exchange::{GAS, LIQUID};
@@ -27,9 +28,6 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let Some(mut rules) = self.setup.free_surface.take() else { return Ok(()) };
         if self.setup.fluids.len() > 1 {
             return Err(unsupported("several fluids below a free surface"));
-        }
-        if rules.force == SurfaceForce::ByFillAndInertia {
-            return Err(unsupported("the surface force with inertia"));
         }
         // The initial fill is as large as the box; it is not kept.
         let fill = std::mem::replace(&mut rules.fill, std::sync::Arc::new([]));
@@ -64,6 +62,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             books: Books::default(),
             loads: vec![Load::default(); loads],
             counts: [0; 2],
+            inertia: (rules.force == SurfaceForce::ByFillAndInertia).then(Inertia::default),
             free: Vec::new(),
             returned: Vec::new(),
             nothing: vec![GAS; self.layout.block_cells()],
@@ -94,6 +93,9 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         put(&mut surface.fill, number, vec![GAS; cells]);
         put(&mut surface.lanes, number, vec![Lanes::default(); cells / E::PER_LINE]);
         put(&mut surface.interface, number, Vec::new());
+        if let Some(inertia) = &mut surface.inertia {
+            inertia.add(number, cells);
+        }
         put(&mut surface.returned, number, vec![0.0; self.blocks[number].links.len()]);
         Some(number)
     }
@@ -137,7 +139,15 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 let mass = fill(cell) * rho;
                 let velocity = point.velocity;
                 let local = local as u16;
-                surface.interface[number].push(InterfaceCell { local, touches: 0, f, rho, velocity, mass });
+                surface.interface[number].push(InterfaceCell {
+                    local,
+                    touches: 0,
+                    f,
+                    rho,
+                    velocity,
+                    mass,
+                    acceleration: [0.0; 3],
+                });
             }
         }
         surface.list_lanes(number, E::PER_LINE);

@@ -28,7 +28,6 @@ pub static STUDY: Study = Study {
         newtonian::MARTIN_MOYCE,
         slope::RUN_A,
         slope::RUN_C,
-        slope::RUN_C_LONG_STEP,
         slope::RUN_E,
         slope::RUN_H,
     ],

@@ -136,15 +136,6 @@ pub const RUN_C: Claim = thesis_run!(
     &[6.0],
     &[6.0, 30.0, 60.0]
 );
-/// Run C in twice as long steps.
-pub const RUN_C_LONG_STEP: Claim = thesis_run!(
-    "thesis-run-c-long-step",
-    "Run C at 3 g H dt2/dx2 = 0.08, twice the design's step: what compressibility does is gone with the mass it adds.",
-    thesis::C,
-    Grid { compression: 0.08, ..Grid::millimetres(SPACING_MM) },
-    &[6.0],
-    &[6.0, 30.0, 60.0]
-);
 /// Error of the run-out from the gate, relative.
 fn run_out(backend: &dyn Backend, case: &Case, time: f64) -> Result<Sample, VerifyError> {
     let prepared = case.prepare(Grid::millimetres(SPACING_MM));
