@@ -25,20 +25,10 @@ pub(super) fn check_numerics(at: &Checker, numerics: &Numerics) -> Result<(), Sc
 
 /// Single precision is in the fast backend only; what only the plain one has cannot be had with it.
 fn precision(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {
-    let inertia = |rules: SurfaceRules| rules.gravity == SurfaceGravity::ByFillAndInertia;
-    let plain = if numerics.stress_source {
-        Some("`numerics.stress_source`")
-    } else if numerics.free_surface.is_some_and(inertia) {
-        Some("`numerics.free_surface.gravity` = `by_fill_and_inertia`")
-    } else {
-        None
-    };
-    match plain {
-        Some(what) => at.ensure(numerics.precision == PrecisionChoice::Double, "numerics.precision", || {
-            SceneProblem::OnlyDouble { what }
-        }),
-        None => Ok(()),
-    }
+    let double = numerics.precision == PrecisionChoice::Double;
+    at.ensure(double || !numerics.stress_source, "numerics.precision", || SceneProblem::OnlyDouble {
+        what: "`numerics.stress_source`",
+    })
 }
 
 fn time_step(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {
