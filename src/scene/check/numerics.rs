@@ -1,10 +1,7 @@
 //! Checks of numerical choices and of when to stop.
 
 use super::{Checker, SceneError, SceneProblem};
-use crate::scene::{
-    ClampLimits, Collision, Numerics, Operator, PrecisionChoice, Stop, SurfaceGravity, SurfaceRules,
-    YieldChoice,
-};
+use crate::scene::{ClampLimits, Collision, Numerics, Operator, PrecisionChoice, Stop, YieldChoice};
 
 const STEP_KEYS: &[&str] = &["time_step_s", "relaxation_time", "target_mach"];
 
