@@ -5,7 +5,7 @@ use std::process::{Command, Output};
 
 use lahar::bench::BenchError;
 use lahar::bench::cases::{GROUPS, Scale};
-use lahar::solver::plain::Plain;
+use lahar::solver::choose::Best;
 use lahar::solver::run::Backend;
 
 fn bench(arguments: &[&str]) -> Output {
@@ -80,7 +80,7 @@ fn cases_run_and_those_meant_to_yield_do() {
             if setup.cells() > 100_000 {
                 continue;
             }
-            let mut run = Plain.start(&setup).unwrap_or_else(|error| panic!("{}: {error}", case.name));
+            let mut run = Best.start(&setup).unwrap_or_else(|error| panic!("{}: {error}", case.name));
             // A dam needs some steps before all of it moves; the vortices move from the start.
             let steps = if setup.free_surface.is_some() { 30 } else { 4 };
             run.advance(steps).unwrap_or_else(|stopped| panic!("{}: {stopped:?}", case.name));

@@ -14,7 +14,7 @@ pub trait Registers: Copy + Send + Sync + 'static {
 
     /// First [`Self::WIDTH`] numbers of a slice.
     fn load(from: &[Self::Element]) -> Self::Pack;
-    /// Numbers from a place on that is known to be inside; see [`super::stores::numbers`].
+    /// Numbers from a place on that is known to be inside; see `stores::numbers`.
     #[inline(always)]
     fn load_at(from: &[Self::Element], at: usize) -> Self::Pack {
         Self::load(super::stores::numbers(from, at, Self::WIDTH))

@@ -1,5 +1,5 @@
 //! Streaming and mass exchange of interface cells side by side \[F1\] \[F2\]: the same as
-//! [`super::exchange::Streaming::stream`] for cells whose links are all the grid's.
+//! `Streaming::stream` for cells whose links are all the grid's.
 
 use super::InterfaceCell;
 use super::exchange::Streaming;
