@@ -1,8 +1,7 @@
 //! Instruction sets: the same pass compiled for each, chosen when a run starts.
 
-use super::block::{Block, Place};
 use super::kernel::{Outcome, Own, Task, pass};
-use super::rim::{Rim, WallTask, correct};
+use super::rim::{Alike, Columns, WallTask, correct_group};
 use super::surface::InterfaceCell;
 use super::surface::exchange::Streaming;
 use super::surface::packed::{Near, stream_block};
@@ -202,51 +201,10 @@ impl<P: Physics> Passes<P, f32> {
     pub const STORED: Self = Self { collide: collide_stored, exchange: exchange_stored };
 }
 
-/// Wall corrections of one block, see [`correct`]; in f64 whatever is stored.
-pub fn walls<P: Physics, F: Fn(usize) -> Option<[f64; 3]>, I: Fn(Place) -> bool>(
-    chosen: Chosen,
-    task: &WallTask<P>,
-    block: &Block,
-    rim: &mut [Rim],
-    force: &F,
-    is_fluid: &I,
-) {
-    match chosen.get() {
-        #[cfg(target_arch = "x86_64")]
-        Instructions::Baseline => correct::<Sse2, P>(task, block, rim, force, is_fluid),
-        #[cfg(not(target_arch = "x86_64"))]
-        Instructions::Baseline | Instructions::Avx2 | Instructions::Avx512 => {
-            correct::<super::registers::Double<2>, P>(task, block, rim, force, is_fluid);
-        }
-        #[cfg(target_arch = "x86_64")]
-        // SAFETY: `Chosen` is only made of what the processor has.
-        Instructions::Avx2 => unsafe { walls_avx2(task, block, rim, force, is_fluid) },
-        #[cfg(target_arch = "x86_64")]
-        // SAFETY: as above.
-        Instructions::Avx512 => unsafe { walls_avx512(task, block, rim, force, is_fluid) },
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn walls_avx2<P: Physics>(
-    task: &WallTask<P>,
-    block: &Block,
-    rim: &mut [Rim],
-    force: &impl Fn(usize) -> Option<[f64; 3]>,
-    is_fluid: &impl Fn(Place) -> bool,
-) {
-    correct::<Avx2, P>(task, block, rim, force, is_fluid);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512bw,avx512vl")]
-fn walls_avx512<P: Physics>(
-    task: &WallTask<P>,
-    block: &Block,
-    rim: &mut [Rim],
-    force: &impl Fn(usize) -> Option<[f64; 3]>,
-    is_fluid: &impl Fn(Place) -> bool,
-) {
-    correct::<Avx512, P>(task, block, rim, force, is_fluid);
+/// Wall corrections of cells side by side, see [`correct_group`]; in f64 whatever is stored.
+pub fn walls<P: Physics>(chosen: Chosen, task: &WallTask<P>, columns: &mut Columns, alike: &Alike) {
+    compiled!(
+        [P: Physics](task: &WallTask<P>, columns: &mut Columns, alike: &Alike),
+        chosen, correct_group, super::registers::Double<2>, Sse2 Avx2 Avx512
+    );
 }

@@ -1,6 +1,7 @@
 //! Cells at walls and open faces: what is kept of their last collision, and the wall correction \[B3\].
 
 use super::block::{Block, Place, RimCell};
+use super::instructions::{self, Chosen};
 use super::layout::{Layout, NONE};
 use super::registers::Registers;
 use super::stage::MOST;
@@ -50,9 +51,20 @@ struct Given {
     residual: [f64; 3],
 }
 
+/// Cells that are corrected together: as many as the widest register holds.
+const GROUP: usize = 8;
+
+/// What the cells of a group have in common.
+pub struct Alike<'a> {
+    count: usize,
+    walls: u32,
+    normal: &'a [f64; 3],
+    fluid: u8,
+}
+
 /// Cells side by side: one number per lane.
 #[repr(align(64))]
-struct Columns {
+pub struct Columns {
     f: [[f64; MOST]; Q],
     force: [[f64; MOST]; 3],
     residual: [[f64; MOST]; 3],
@@ -62,8 +74,8 @@ struct Columns {
 /// Corrections of the rim cells of a block: neighbours along the rim with the same walls side by side.
 /// `force(local)`: body force of a fluid cell, `None` if the cell holds no fluid; `is_fluid(place)`: whether a
 /// neighbour does.
-#[inline(always)]
-pub fn correct<R: Registers<Element = f64>, P: Physics>(
+pub fn correct<P: Physics>(
+    chosen: Chosen,
     task: &WallTask<P>,
     block: &Block,
     rim: &mut [Rim],
@@ -76,7 +88,7 @@ pub fn correct<R: Registers<Element = f64>, P: Physics>(
     let mut at = 0;
     while at < rim.len() {
         let mut count = 0;
-        while count < R::WIDTH && at < rim.len() {
+        while count < GROUP && at < rim.len() {
             let cell = &block.rim[at];
             if count > 0 && !alike(block, &block.rim[group[0]], cell) {
                 break;
@@ -92,7 +104,9 @@ pub fn correct<R: Registers<Element = f64>, P: Physics>(
         }
         if count > 0 {
             let cell = &block.rim[group[0]];
-            columns.correct::<R, P>(task, cell.walls, &cell.normal, fluid_of(block, cell));
+            let alike =
+                Alike { count, walls: cell.walls, normal: &cell.normal, fluid: fluid_of(block, cell) };
+            instructions::walls(chosen, task, &mut columns, &alike);
             for (lane, &at) in group[..count].iter().enumerate() {
                 for (value, column) in rim[at].correction.iter_mut().zip(&columns.f) {
                     *value = column[lane];
@@ -150,30 +164,38 @@ impl Columns {
 
     /// Puts the corrections in the place of the populations.
     #[inline(always)]
-    fn correct<R: Registers<Element = f64>, P: Physics>(
-        &mut self,
-        task: &WallTask<P>,
-        walls: u32,
-        normal: &[f64; 3],
-        fluid: u8,
-    ) {
-        let h = directions(
-            #[inline(always)]
-            |i| R::load_wide(&self.f[i]),
-        );
-        let force = three(
-            #[inline(always)]
-            |a| R::load_wide(&self.force[a]),
-        );
-        let residual = three(
-            #[inline(always)]
-            |a| R::load_wide(&self.residual[a]),
-        );
-        let state = State { m: task.physics.moments(&h, &force), omega: R::load_wide(&self.omega) };
-        let situation = Situation { residual, fluid, sourced: task.sourced, limited: task.limited };
-        let correction = wall_correction(task.physics, walls, normal, &h, &state, &situation);
-        for i in 0..Q {
-            R::store_wide(correction[i], &mut self.f[i]);
+    fn correct<R: Registers<Element = f64>, P: Physics>(&mut self, task: &WallTask<P>, alike: &Alike) {
+        for part in (0..alike.count).step_by(R::WIDTH) {
+            let h = directions(
+                #[inline(always)]
+                |i| R::load_wide(&self.f[i][part..]),
+            );
+            let force = three(
+                #[inline(always)]
+                |a| R::load_wide(&self.force[a][part..]),
+            );
+            let residual = three(
+                #[inline(always)]
+                |a| R::load_wide(&self.residual[a][part..]),
+            );
+            let omega = R::load_wide(&self.omega[part..]);
+            let state = State { m: task.physics.moments(&h, &force), omega };
+            let (sourced, limited) = (task.sourced, task.limited);
+            let situation = Situation { residual, fluid: alike.fluid, sourced, limited };
+            let correction = wall_correction(task.physics, alike.walls, alike.normal, &h, &state, &situation);
+            for i in 0..Q {
+                R::store_wide(correction[i], &mut self.f[i][part..]);
+            }
         }
     }
+}
+
+/// Corrections of cells side by side, for one instruction set; see [`instructions::walls`].
+#[inline(always)]
+pub fn correct_group<R: Registers<Element = f64>, P: Physics>(
+    task: &WallTask<P>,
+    columns: &mut Columns,
+    alike: &Alike,
+) {
+    columns.correct::<R, P>(task, alike);
 }

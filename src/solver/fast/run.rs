@@ -6,10 +6,10 @@ use rayon::prelude::*;
 
 use super::block::{Block, From, Place, Velocities, numbers_around};
 use super::element::{Aligned, Element};
-use super::instructions::{self, Chosen, Passes};
+use super::instructions::{Chosen, Passes};
 use super::kernel::{Outcome, Own, Task, block_len, index};
 use super::layout::{Layout, NONE};
-use super::rim::{Rim, WallTask};
+use super::rim::{Rim, WallTask, correct};
 use super::sources::Sources;
 use super::stage::{after, open_link, wall_link};
 use super::stores;
@@ -279,7 +279,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         each(self.pool.as_ref(), items, |(number, rim): (usize, &mut Vec<Rim>)| {
             let force_of = |local| self.force_of(number, local, force);
             let is_fluid = |place| self.is_fluid(place);
-            instructions::walls(self.chosen, &task, &self.blocks[number], rim, &force_of, &is_fluid);
+            correct(self.chosen, &task, &self.blocks[number], rim, &force_of, &is_fluid);
         });
         self.rim = rim;
     }
