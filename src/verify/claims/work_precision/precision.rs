@@ -72,8 +72,8 @@ fn channel(backend: &dyn Backend, column: &Column) -> Result<Vec<f64>, VerifyErr
 fn worse(parameter: f64, parts: [(Precision, f64, f64); 2]) -> Sample {
     let mut worst = Sample::absolute(parameter, 0.0, 0.0);
     for (_, difference, floor) in parts {
-        // A NaN must not be passed over.
-        if difference / floor <= worst.error {
+        // A NaN must not be passed over, whichever comes first.
+        if worst.error.is_nan() || difference / floor <= worst.error {
             continue;
         }
         worst = Sample { error: difference / floor, ..Sample::absolute(parameter, difference, floor) };
