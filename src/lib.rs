@@ -42,6 +42,7 @@
 pub mod bench;
 pub mod boundary;
 pub mod collision;
+pub mod dem;
 pub mod free_surface;
 pub mod geometry;
 pub mod lane;

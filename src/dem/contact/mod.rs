@@ -1,0 +1,298 @@
+//! Contact between two members, or a member and a wall: geometry and motion in, force and torque out.
+//!
+//! A contact is seen from its first side: `normal` points from the second side to the first, `slip` is the
+//! velocity of the first surface relative to the second, the force acts on the first side and its opposite on
+//! the second.
+
+pub mod friction;
+pub mod hertz;
+pub mod linear;
+pub mod pass;
+pub mod restitution;
+pub mod tsuji;
+
+use super::V3;
+use super::material::{Compiled, PairLaw};
+use friction::{Slider, slide};
+
+/// The three statements of contact mechanics that wrong variants in tests replace.
+pub trait Physics: Copy + Send + Sync {
+    /// Turns a vector of the old contact plane (normal `n0`) into the new one (normal `n`), with the twist
+    /// angle `twist` (rad) about the normal.
+    ///
+    /// The tilt is the smallest rotation that takes `n0` to `n`, so a rigid motion of the pair carries the
+    /// spring along unchanged (objectivity).
+    #[inline(always)]
+    fn rotate_spring(&self, s: &V3, n0: &V3, n: &V3, twist: f64) -> V3 {
+        let along = s.dot(n);
+        let c = 1.0 + n0.dot(n);
+        // c = 0 would be a normal that turned over within one step; the spring then only loses its normal part.
+        let tilted = if c > 1e-3 { s - (n0 + n) * (along / c) } else { s - n * along };
+        tilted * (1.0 - 0.5 * twist * twist) + n.cross(&tilted) * twist
+    }
+
+    /// Largest tangential force, μ F_n (Coulomb).
+    #[inline(always)]
+    fn friction_cap(&self, friction: f64, normal_force: f64) -> f64 {
+        friction * normal_force
+    }
+
+    /// Velocity of a body's surface, u = v + ω × r (004 Eq 3.38 corrected).
+    #[inline(always)]
+    fn surface_velocity(&self, v: &V3, omega: &V3, r: &V3) -> V3 {
+        v + omega.cross(r)
+    }
+}
+
+/// The right physics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Standard;
+impl Physics for Standard {}
+
+/// The tangential spring is left where it was when the contact turns.
+#[derive(Debug, Clone, Copy)]
+pub struct SpringNotRotated;
+impl Physics for SpringNotRotated {
+    #[inline(always)]
+    fn rotate_spring(&self, s: &V3, _: &V3, _: &V3, _: f64) -> V3 {
+        *s
+    }
+}
+
+/// No Coulomb cap.
+#[derive(Debug, Clone, Copy)]
+pub struct NoCap;
+impl Physics for NoCap {
+    #[inline(always)]
+    fn friction_cap(&self, friction: f64, _: f64) -> f64 {
+        if friction > 0.0 { f64::MAX } else { 0.0 }
+    }
+}
+
+/// The product of 004 Eq 3.38 as printed, u = v + r × ω.
+#[derive(Debug, Clone, Copy)]
+pub struct ReversedProduct;
+impl Physics for ReversedProduct {
+    #[inline(always)]
+    fn surface_velocity(&self, v: &V3, omega: &V3, r: &V3) -> V3 {
+        v + r.cross(omega)
+    }
+}
+
+/// Which physics a run uses; anything but `None` is wrong on purpose and exists for tests.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Mutant {
+    /// The right physics.
+    #[default]
+    None,
+    /// See [`SpringNotRotated`].
+    SpringNotRotated,
+    /// See [`NoCap`].
+    NoCoulombCap,
+    /// See [`ReversedProduct`].
+    ReversedProduct,
+}
+
+/// Where two surfaces meet.
+#[derive(Debug, Clone, Copy)]
+pub struct Geometry {
+    /// From the second side to the first, unit length.
+    pub normal: V3,
+    /// δ > 0, m.
+    pub overlap: f64,
+    /// R*, m.
+    pub radius: f64,
+    /// m*, kg.
+    pub mass: f64,
+}
+
+/// How two surfaces move against each other.
+#[derive(Debug, Clone, Copy)]
+pub struct Motion {
+    /// Velocity of the first surface relative to the second, m/s.
+    pub slip: V3,
+    /// ω₁ − ω₂, rad/s.
+    pub relative_spin: V3,
+    /// ½(ω₁ + ω₂), rad/s: the contact plane twists with it.
+    pub mean_spin: V3,
+}
+
+/// What a contact remembers from one step to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct History {
+    /// Normal at the last step; zero when the surfaces did not touch.
+    pub normal: V3,
+    /// Contact radius √(R* δ) at the last step (1 for the linear law), m; 0 when the surfaces did not touch.
+    pub root: f64,
+    /// Tangential spring, m, already advanced by half of the last step (trapezoidal rule).
+    pub spring: V3,
+    /// Magnitude of the tangential spring force at the last step, N.
+    pub force: f64,
+}
+
+/// What a contact with rolling resistance remembers besides.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Rolling {
+    /// Rolling spring, rad, advanced like [`History::spring`].
+    pub roll: V3,
+    /// Magnitude of the rolling spring torque at the last step, N m.
+    pub torque: f64,
+    /// Rolling torque on the first side at the last step, N m.
+    pub moment: V3,
+}
+
+impl History {
+    /// Energy still in the tangential spring of a contact that has just opened, J. It is lost.
+    #[inline]
+    pub fn released(&self) -> f64 {
+        0.5 * self.force * self.spring.norm()
+    }
+}
+
+impl Rolling {
+    /// Energy still in the rolling spring of a contact that has just opened, J. It is lost.
+    #[inline]
+    pub fn released(&self) -> f64 {
+        0.5 * self.torque * self.roll.norm()
+    }
+}
+
+/// Rates (W) and amounts (J) that contacts lose or exchange; see [`super::energy`].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Losses {
+    /// Rate lost in the normal direction, W.
+    pub normal: f64,
+    /// Rate lost tangentially while sticking (dashpot, change of stiffness), W.
+    pub tangential: f64,
+    /// Rate lost in rolling while sticking, W.
+    pub rolling: f64,
+    /// Work of slip in this step, J.
+    pub slip: f64,
+    /// Work of rolling slip in this step, J.
+    pub roll_slip: f64,
+    /// Rate at which moving walls and driven bodies work on the contacts, W.
+    pub driven: f64,
+}
+
+impl Losses {
+    /// Adds `other`, term by term.
+    #[inline(always)]
+    pub fn add(&mut self, other: &Losses) {
+        self.normal += other.normal;
+        self.tangential += other.tangential;
+        self.rolling += other.rolling;
+        self.slip += other.slip;
+        self.roll_slip += other.roll_slip;
+        self.driven += other.driven;
+    }
+}
+
+/// Force and torque of a contact on its first side.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Reaction {
+    /// Normal force F_n ≥ 0, N.
+    pub normal: f64,
+    /// Tangential force, N.
+    pub tangential: V3,
+    /// Rolling torque, N m.
+    pub rolling: V3,
+}
+
+/// The normal force without cut-off and what follows from it.
+#[derive(Debug, Clone, Copy)]
+pub struct Normal {
+    /// Elastic part, N.
+    pub elastic: f64,
+    /// Damping coefficient, N s/m.
+    pub damping: f64,
+    /// Contact radius √(R* δ), m; 1 for the linear law.
+    pub root: f64,
+    /// Tangential stiffness, N/m.
+    pub tangential_stiffness: f64,
+}
+
+/// Elastic force, damping and tangential stiffness of a pair at an overlap.
+#[inline(always)]
+pub fn normal_terms(law: &PairLaw, g: &Geometry) -> Normal {
+    match law.normal {
+        Compiled::ViscoElastic { time } => hertz::visco_elastic(law.young, law.shear, time, g),
+        Compiled::Tsuji { alpha } => tsuji::constant_restitution(law.young, law.shear, alpha, g),
+        Compiled::Linear { stiffness, ratio, tangential } => {
+            linear::spring_dashpot(stiffness, ratio, tangential, g)
+        }
+    }
+}
+
+/// Elastic energy stored by the overlap, J.
+#[inline]
+pub fn elastic_energy(law: &PairLaw, g: &Geometry) -> f64 {
+    let n = normal_terms(law, g);
+    match law.normal {
+        // integral of F over the overlap: F ~ delta^{3/2}
+        Compiled::ViscoElastic { .. } | Compiled::Tsuji { .. } => 0.4 * n.elastic * g.overlap,
+        Compiled::Linear { .. } => 0.5 * n.elastic * g.overlap,
+    }
+}
+
+/// Force of a contact, \[D1\] and \[D2\]; moves its history on by one step.
+///
+/// # Source
+/// DESIGN \[D1\], \[D2\]; 000 Sec 2.1.
+#[allow(clippy::too_many_arguments)]
+#[inline(always)]
+pub fn react<P: Physics>(
+    physics: &P,
+    law: &PairLaw,
+    g: &Geometry,
+    m: &Motion,
+    dt: f64,
+    h: &mut History,
+    rolling: &mut Rolling,
+    losses: &mut Losses,
+) -> Reaction {
+    let n = normal_terms(law, g);
+    let speed = -m.slip.dot(&g.normal); // rate of the overlap
+    let wished = n.elastic + n.damping * speed;
+    let force = if wished > 0.0 { wished } else { 0.0 };
+    losses.normal += (force - n.elastic) * speed;
+    let mut out = Reaction { normal: force, ..Reaction::default() };
+    if law.friction > 0.0 {
+        let twist = dt * m.mean_spin.dot(&g.normal);
+        let old = h.root > 0.0;
+        // The tangential stiffness grows with sqrt(delta). Loading keeps the force, unloading keeps the
+        // displacement, so that a change of stiffness never makes energy (Thornton, Cummins & Cleary 2013).
+        let ratio = h.root / n.root;
+        let keep = if ratio < 1.0 { ratio } else { 1.0 };
+        let stiffness_rate = if n.root == 1.0 { 0.0 } else { 0.5 * speed.abs() / g.overlap };
+        let carried = |s: &V3| {
+            if old { physics.rotate_spring(s, &h.normal, &g.normal, twist) * keep } else { V3::zeros() }
+        };
+        let slip = m.slip + g.normal * speed;
+        let mut s = Slider { spring: carried(&h.spring), force: h.force, keep, energy: 0.0 };
+        let cap = physics.friction_cap(law.friction, force);
+        let (t, rate, work) =
+            slide(&mut s, &slip, n.tangential_stiffness, law.tangential_damping * n.damping, cap, dt);
+        losses.tangential += rate + s.energy * stiffness_rate;
+        losses.slip += work;
+        out.tangential = t;
+        if law.rolling > 0.0 {
+            let arm2 = g.radius * g.radius;
+            let roll = m.relative_spin - g.normal * m.relative_spin.dot(&g.normal);
+            let mut r = Slider { spring: carried(&rolling.roll), force: rolling.torque, keep, energy: 0.0 };
+            let stiffness = n.tangential_stiffness * arm2;
+            let damping = law.tangential_damping * n.damping * arm2;
+            let (t, rate, work) =
+                slide(&mut r, &roll, stiffness, damping, law.rolling * g.radius * force, dt);
+            losses.rolling += rate + r.energy * stiffness_rate;
+            losses.roll_slip += work;
+            out.rolling = t;
+            rolling.roll = r.spring;
+            rolling.torque = r.force;
+        }
+        h.spring = s.spring;
+        h.force = s.force;
+    }
+    h.normal = g.normal;
+    h.root = n.root;
+    out
+}

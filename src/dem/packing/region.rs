@@ -1,0 +1,84 @@
+//! Places to fill.
+
+use super::Random;
+use crate::dem::{DemError, V3};
+
+/// A place to fill with grains that stay wholly inside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Region {
+    /// Between two corners.
+    Box { low: V3, high: V3 },
+    /// A ball.
+    Sphere { centre: V3, radius: f64 },
+    /// An upright cylinder about `axis` with its base centred at `base`.
+    Cylinder { base: V3, axis: V3, radius: f64, height: f64 },
+}
+
+impl Region {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// Sizes that are not above zero, numbers that are not finite.
+    pub fn check(&self) -> Result<(), DemError> {
+        let (what, found) = match self {
+            Region::Box { low, high } => ("smallest edge of the box (m)", (high - low).min()),
+            Region::Sphere { radius, .. } => ("radius of the sphere (m)", *radius),
+            Region::Cylinder { radius, height, axis, .. } => (
+                "smallest of axis length, radius and height of the cylinder",
+                radius.min(*height).min(axis.norm()),
+            ),
+        };
+        if found > 0.0
+            && found.is_finite()
+            && self.bounds().0.iter().chain(self.bounds().1.iter()).all(|x| x.is_finite())
+        {
+            Ok(())
+        } else {
+            Err(DemError::Packing { what, found, allowed: "finite and above 0" })
+        }
+    }
+
+    /// Box around the place.
+    pub fn bounds(&self) -> (V3, V3) {
+        match *self {
+            Region::Box { low, high } => (low, high),
+            Region::Sphere { centre, radius } => (centre - V3::repeat(radius), centre + V3::repeat(radius)),
+            Region::Cylinder { base, axis, radius, height } => {
+                let a = axis.normalize();
+                let side = a.map(|x| radius * (1.0 - x * x).max(0.0).sqrt());
+                let top = base + a * height;
+                (base.inf(&top) - side, base.sup(&top) + side)
+            }
+        }
+    }
+
+    /// m³.
+    pub fn volume(&self) -> f64 {
+        let pi = std::f64::consts::PI;
+        match *self {
+            Region::Box { low, high } => (high - low).product(),
+            Region::Sphere { radius, .. } => 4.0 / 3.0 * pi * radius * radius * radius,
+            Region::Cylinder { radius, height, .. } => pi * radius * radius * height,
+        }
+    }
+
+    /// Whether a ball at `x` lies wholly inside.
+    pub fn holds(&self, x: &V3, radius: f64) -> bool {
+        match *self {
+            Region::Box { low, high } => (x - low).min() >= radius && (high - x).min() >= radius,
+            Region::Sphere { centre, radius: r } => (x - centre).norm() + radius <= r,
+            Region::Cylinder { base, axis, radius: r, height } => {
+                let a = axis.normalize();
+                let along = (x - base).dot(&a);
+                let off = (x - base - a * along).norm();
+                off + radius <= r && along >= radius && along + radius <= height
+            }
+        }
+    }
+
+    /// A random point of the box around the place, at least `radius` from that box's faces.
+    pub fn point(&self, random: &mut Random, radius: f64) -> V3 {
+        let (low, high) = self.bounds();
+        V3::from_fn(|k, _| low[k] + radius + random.unit() * (high[k] - low[k] - 2.0 * radius))
+    }
+}

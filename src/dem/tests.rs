@@ -1,0 +1,9 @@
+//! Tests of whole runs. Prefixes say where truth comes from.
+
+mod books;
+mod collisions;
+mod hard;
+mod help;
+mod parity;
+mod rotation;
+mod sliding;
