@@ -51,6 +51,7 @@ pub mod output;
 pub mod plan;
 pub mod report;
 pub mod rheology;
+pub mod run_grains;
 pub mod run_scene;
 pub mod scene;
 pub mod solver;

@@ -7,11 +7,14 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 use lahar::bench::{self, BenchError};
 use lahar::output::OutputError;
+use lahar::plan::grains::GrainPlan;
 use lahar::plan::target::{self, Target};
 use lahar::plan::{Layout, Plan, PlanError};
 use lahar::report::{self, ReportError, ReportOutcome};
+use lahar::run_grains::{self, Ending, GrainOptions};
 use lahar::run_scene::{self, Options, RunError};
-use lahar::scene::{self, Scene, SceneError, SceneProblem};
+use lahar::scene::dry::DryScene;
+use lahar::scene::{self, AnyScene, SceneError, SceneProblem};
 use lahar::solver::choose::{Best, only_plain};
 use lahar::solver::plain::Plain;
 use lahar::solver::run::Backend;
@@ -135,6 +138,10 @@ enum Failure {
     Report(#[from] ReportError),
     #[error(transparent)]
     Bench(#[from] BenchError),
+    #[error(
+        "{0}: `--target-error` is about flows, and this scene has no fluid\n  way out: leave it out; `steps_per_contact` sets the accuracy of contacts"
+    )]
+    NoTarget(String),
     #[error("cannot write as JSON: {0}")]
     Json(#[from] serde_json::Error),
     #[error("REPORT.md is not up to date: {0}\n  way out: run `lahar report`")]
@@ -147,10 +154,10 @@ impl Failure {
     fn code(&self) -> u8 {
         match self {
             Self::Scene(error) if matches!(*error.problem, SceneProblem::Unreadable { .. }) => IO,
-            Self::Scene(_) | Self::Plan(_) => BAD_INPUT,
+            Self::Scene(_) | Self::Plan(_) | Self::NoTarget(_) => BAD_INPUT,
             Self::Run(RunError::Start(_)) => BAD_INPUT,
-            Self::Run(RunError::Stopped(_)) => STOPPED,
-            Self::Run(RunError::Folder { .. } | RunError::Output(_)) => IO,
+            Self::Run(RunError::Stopped(_) | RunError::Grains(_)) => STOPPED,
+            Self::Run(RunError::Threads(_) | RunError::Folder { .. } | RunError::Output(_)) => IO,
             Self::Bench(BenchError::Stopped { .. }) => STOPPED,
             Self::Bench(BenchError::Threads(_)) => IO,
             Self::Bench(_) => BAD_INPUT,
@@ -199,9 +206,12 @@ fn run(
     until_s: Option<f64>,
     quiet: bool,
 ) -> Result<(), Failure> {
-    let scene = scene::load(path)?;
+    let scene = match scene::read(path)? {
+        AnyScene::Flow(scene) => scene,
+        AnyScene::Dry(scene) => return run_dry(&scene, out, threads, until_s, quiet),
+    };
     let plan = Plan::for_layout(&scene, backend.layout())?;
-    let out = out.unwrap_or_else(|| default_folder(&scene));
+    let out = out.unwrap_or_else(|| default_folder(&scene.file));
     if !quiet {
         let n = &plan.numbers;
         let [nx, ny, nz] = n.extents;
@@ -235,13 +245,53 @@ fn run(
     Ok(())
 }
 
-fn default_folder(scene: &Scene) -> PathBuf {
-    let name = Path::new(&scene.file).file_stem().map_or_else(|| "scene".into(), |stem| stem.to_os_string());
+/// Runs grains without fluid; there is one way to compute them.
+fn run_dry(
+    scene: &DryScene,
+    out: Option<PathBuf>,
+    threads: Option<u16>,
+    until_s: Option<f64>,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let plan = GrainPlan::new(scene)?;
+    let out = out.unwrap_or_else(|| default_folder(&scene.file));
+    if !quiet {
+        let n = &plan.numbers;
+        eprintln!(
+            "{}: {} grains of {} spheres, {} steps of {:.4e} s",
+            n.title, n.grains, n.spheres, n.steps, n.time_step_s
+        );
+        for warning in &n.warnings {
+            eprintln!("warning: {warning}");
+        }
+    }
+    let options = GrainOptions { out, threads: count(threads), until_s, quiet };
+    let finished = run_grains::run(scene, &plan, &options)?;
+    if !quiet {
+        let why = match finished.why {
+            Ending::EndTime => "end time",
+            Ending::AtRest => "at rest",
+            Ending::Empty => "all grains have left",
+        };
+        eprintln!(
+            "done: {} steps, {:.6} s ({why}), {:.1} s of computing, {:.2} million sphere updates per second",
+            finished.steps, finished.time_s, finished.wall_seconds, finished.million_updates_per_second
+        );
+        eprintln!("results in {}", options.out.display());
+    }
+    Ok(())
+}
+
+fn default_folder(file: &str) -> PathBuf {
+    let name = Path::new(file).file_stem().map_or_else(|| "scene".into(), |stem| stem.to_os_string());
     PathBuf::from("out").join(name)
 }
 
 fn plan(path: &Path, json: bool, backend: BackendName, target_error: Option<Target>) -> Result<(), Failure> {
-    let scene = scene::load(path)?;
+    let scene = match scene::read(path)? {
+        AnyScene::Flow(scene) => scene,
+        AnyScene::Dry(scene) => return plan_dry(&scene, json, target_error),
+    };
     let plan = Plan::for_layout(&scene, backend.layout())?;
     let quote = target_error.map(|target| target::quote(&scene, &plan, target)).transpose()?;
     if json {
@@ -257,6 +307,18 @@ fn plan(path: &Path, json: bool, backend: BackendName, target_error: Option<Targ
         print(&format!("{}\n", serde_json::to_string_pretty(&all)?))
     } else {
         print(&format!("{plan}{}", quote.map_or_else(String::new, |quote| quote.to_string())))
+    }
+}
+
+fn plan_dry(scene: &DryScene, json: bool, target_error: Option<Target>) -> Result<(), Failure> {
+    if target_error.is_some() {
+        return Err(Failure::NoTarget(scene.file.clone()));
+    }
+    let plan = GrainPlan::new(scene)?;
+    if json {
+        print(&format!("{}\n", serde_json::to_string_pretty(&plan.numbers)?))
+    } else {
+        print(&plan.to_string())
     }
 }
 

@@ -72,7 +72,16 @@ pub enum DemError {
         "run stopped at step {step}, t = {time_s:.9e} s: {pair} overlap by {overlap_m:.4e} m, {share:.3} of the smaller radius \
          (limit {limit}); the impact is too fast for this stiffness, or the time step too long"
     )]
-    Overlap { step: u64, time_s: f64, pair: String, overlap_m: f64, share: f64, limit: f64 },
+    Overlap {
+        step: u64,
+        time_s: f64,
+        pair: String,
+        /// The grains of the pair; one if the other side is a wall.
+        grains: (usize, Option<usize>),
+        overlap_m: f64,
+        share: f64,
+        limit: f64,
+    },
     #[error("run stopped at step {step}, t = {time_s:.9e} s: state of grain {grain} is not finite")]
     NotFinite { step: u64, time_s: f64, grain: usize },
     #[error(

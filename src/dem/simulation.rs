@@ -250,10 +250,12 @@ impl Dem {
 
     fn too_deep(&self, p: usize) -> DemError {
         let (pair, overlap_m, share) = self.pair_words(p);
+        let (ia, ib) = self.list.pairs[p];
         DemError::Overlap {
             step: self.steps,
             time_s: self.time(),
             pair,
+            grains: (self.members[ia as usize].body as usize, Some(self.members[ib as usize].body as usize)),
             overlap_m,
             share,
             limit: self.overlap_limit,
@@ -270,6 +272,7 @@ impl Dem {
             step: self.steps,
             time_s: self.time(),
             pair: format!("grain {} and wall `{name}`", m.body),
+            grains: (m.body as usize, None),
             overlap_m,
             share: overlap_m / m.radius,
             limit: self.overlap_limit,

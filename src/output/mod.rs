@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 pub mod atomic;
 pub mod csv;
+pub mod discs;
 pub mod isosurface;
 pub mod picture;
 pub mod plot;

@@ -274,7 +274,8 @@ impl<'a> Canvas<'a> {
     }
 }
 
-fn colour(t: f64) -> String {
+/// Colour of a share from 0 to 1.
+pub(super) fn colour(t: f64) -> String {
     let level = (t.clamp(0.0, 1.0) * LEVELS as f64).floor().min(LEVELS as f64 - 1.0);
     let at = level / (LEVELS as f64 - 1.0) * (MAP.len() - 1) as f64;
     let k = (at.floor() as usize).min(MAP.len() - 2);

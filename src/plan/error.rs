@@ -92,6 +92,69 @@ pub enum PlanProblem {
         "the end time of {end} s is less than half a time step of {dt} s\n  allowed: at least one step\n  way out: a smaller `numerics.time_step_s`"
     )]
     NoStep { end: f64, dt: f64 },
+    /// Nothing says how fast grains become.
+    #[error(
+        "no speed: no grain and no wall moves, and there is no gravity\n  allowed: scenes in which something moves\n  way out: give a velocity, gravity, or `design_speed_m_per_s`"
+    )]
+    NoDesignSpeed,
+    /// All grains are driven.
+    #[error(
+        "all grains are driven: nothing can be pushed\n  allowed: at least one grain that is free\n  way out: remove `driven` from a set"
+    )]
+    NothingMoves,
+    /// End before the first step of the grains.
+    #[error(
+        "the end time of {end:.3e} s is less than half a time step of {dt:.3e} s\n  allowed: at least one step\n  way out: a later end, or a smaller `grains.numerics.time_step_s`"
+    )]
+    NoGrainStep { end: f64, dt: f64 },
+    /// Grains that overlap at time 0.
+    #[error(
+        "{first} and {second} overlap by {overlap_m:.3e} m at time 0\n  allowed: at most {allowed_m:.3e} m; deeper overlaps would explode\n  way out: move one of them, or raise `grains.numerics.start_overlap`"
+    )]
+    GrainsOverlap { first: String, second: String, overlap_m: f64, allowed_m: f64 },
+    /// A time step that does not resolve a contact.
+    #[error(
+        "found {found_s:.3e} s\n  allowed: at most {limit_s:.3e} s; the contact between {pair} lasts {contact_s:.3e} s at the design speed of {speed_m_s:.4} m/s and needs {steps} steps at least [D3]\n  way out: leave it out, softer material, or a lower `design_speed_m_per_s`"
+    )]
+    GrainTimeStep { found_s: f64, pair: String, contact_s: f64, speed_m_s: f64, steps: f64, limit_s: f64 },
+    /// A periodic axis too short.
+    #[error(
+        "axis {axis}: found {length_m} m\n  allowed: more than {needed_m:.6} m along a periodic axis; on less a pair would touch twice\n  way out: a longer box, smaller grains, or `free_slip` faces"
+    )]
+    GrainPeriod { axis: char, length_m: f64, needed_m: f64 },
+    /// No room.
+    #[error(
+        "{placed} of {wanted} grains found a place without overlap\n  allowed: as many as random addition finds room for, about a third of the volume\n  way out: fewer or smaller grains, a larger region, or a lattice"
+    )]
+    PackingFull { placed: usize, wanted: usize },
+    /// A lattice without a place.
+    #[error(
+        "no grain of radius {radius_m} m lies wholly inside the region\n  allowed: regions with room for at least one\n  way out: a larger region, or smaller grains"
+    )]
+    NoGrainFits { radius_m: f64 },
+    /// A file beside the scene.
+    #[error(
+        "`{file}` cannot be read as {kind}: {what}\n  allowed: {kind} in the folder of the scene\n  way out: check its name and content"
+    )]
+    BadFile { file: String, kind: &'static str, what: String },
+    /// A grain that is not in the box.
+    #[error(
+        "axis {axis}: the centre of {grain} is at {at_m} m\n  allowed: 0 m to {size_m} m, the box{}\n  way out: move it into the box", if *.open { "; what passes an open face is taken out" } else { "" }
+    )]
+    GrainOutside { grain: String, axis: char, at_m: f64, size_m: f64, open: bool },
+    /// More than can be numbered.
+    #[error(
+        "found {spheres:.3e} spheres\n  allowed: at most {max:.0e}, which can be numbered\n  way out: fewer or larger grains"
+    )]
+    TooManyGrains { spheres: f64, max: f64 },
+    /// More than fits.
+    #[error(
+        "{grains} grains need {}\n  allowed: at most the {} that are free\n  way out: fewer or larger grains", human(*.bytes), human(*.available)
+    )]
+    GrainMemory { grains: u64, bytes: u64, available: u64 },
+    /// Anything else that the discrete element method refuses.
+    #[error("{what}\n  allowed: what the message asks for\n  way out: change the value it names")]
+    Grains { what: String },
     /// A scale that left the range of 64-bit numbers.
     #[error(
         "{quantity} is {found} in lattice units\n  allowed: finite numbers\n  way out: check the magnitudes of spacing, density and viscosity"

@@ -3,6 +3,7 @@
 mod cells;
 mod checks;
 mod error;
+pub mod grains;
 mod initial;
 pub mod law;
 mod lower;
@@ -24,7 +25,7 @@ pub use error::{PlanError, PlanProblem};
 pub use memory::{Layout, available as available_memory};
 pub use needs::Need;
 pub use numbers::Numbers;
-pub use scale::{extreme_forces, total_force};
+pub use scale::{extreme_forces, gravity_vector, total_force};
 pub use time_step::StepRule;
 
 use crate::scene::Scene;

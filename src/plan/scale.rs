@@ -35,6 +35,12 @@ pub fn gravity_force(gravity: &Gravity, density: f64) -> [f64; 3] {
     force
 }
 
+/// Acceleration of gravity, m/s².
+#[must_use]
+pub fn gravity_vector(gravity: &Gravity) -> [f64; 3] {
+    gravity_force(gravity, 1.0)
+}
+
 /// Body force with gravity in it.
 #[must_use]
 pub fn total_force(scene: &Scene) -> BodyForce {

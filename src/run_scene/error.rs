@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::output::OutputError;
 use crate::plan::Plan;
+use crate::run_grains::GrainStopReport;
 use crate::scene::Scene;
 use crate::solver::run::{Runaway, StartError, Stopped};
 use crate::solver::setup::WallRule;
@@ -21,6 +22,12 @@ pub enum RunError {
     /// A guard stopped the run.
     #[error("{0}")]
     Stopped(Box<StopReport>),
+    /// A guard stopped a run of grains.
+    #[error("{0}")]
+    Grains(Box<GrainStopReport>),
+    /// The worker threads cannot be made.
+    #[error("cannot make worker threads: {0}")]
+    Threads(String),
     /// A file could not be written.
     #[error(transparent)]
     Output(OutputError),

@@ -5,7 +5,7 @@ mod error;
 mod mesh;
 mod pictures;
 mod probes;
-mod schedule;
+pub(crate) mod schedule;
 mod writer;
 
 use std::path::PathBuf;

@@ -7,7 +7,7 @@ use crate::units::Units;
 const DEFAULT_ROWS: u32 = 100;
 
 /// Steps of a time, at least one; saturates.
-pub(super) fn steps_until(time_s: f64, units: &Units) -> u64 {
+pub(crate) fn steps_until(time_s: f64, units: &Units) -> u64 {
     (units.time_to_lattice(time_s).round() as u64).max(1)
 }
 
@@ -43,14 +43,14 @@ impl Schedule {
 }
 
 /// A recurring event: number k is due at step round(k · interval).
-pub(super) struct Ticker {
+pub(crate) struct Ticker {
     /// Steps between events, not rounded; infinite for never.
     interval: f64,
     count: u64,
 }
 
 impl Ticker {
-    fn new(cadence: Cadence, units: &Units, end: u64) -> Self {
+    pub(crate) fn new(cadence: Cadence, units: &Units, end: u64) -> Self {
         let interval = match cadence {
             Cadence::EverySeconds(every) => units.time_to_lattice(every),
             Cadence::Count(count) => end as f64 / f64::from(count.max(1)),
@@ -58,12 +58,12 @@ impl Ticker {
         Self { interval: if interval < 1.0 { 1.0 } else { interval }, count: 1 }
     }
 
-    fn never() -> Self {
+    pub(crate) fn never() -> Self {
         Self { interval: f64::INFINITY, count: 1 }
     }
 
     /// Step of the next event.
-    fn next(&self) -> u64 {
+    pub(crate) fn next(&self) -> u64 {
         // The cast saturates, which is never.
         (self.count as f64 * self.interval).round() as u64
     }

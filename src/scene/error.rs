@@ -80,7 +80,7 @@ pub enum SceneProblem {
     #[error("found {found}{}\n  allowed: ≥ 0, {because}\n  way out: {way_out}", with_space(.unit))]
     Negative { found: f64, unit: &'static str, because: &'static str, way_out: &'static str },
     /// A quantity with a range.
-    #[error("found {found}{}\n  allowed: {low} to {high}, {because}\n  way out: {way_out}", with_space(.unit))]
+    #[error("found {found}{}\n  allowed: {}, {because}\n  way out: {way_out}", with_space(.unit), range(*.low, *.high))]
     OutOfRange {
         found: f64,
         unit: &'static str,
@@ -176,6 +176,30 @@ pub enum SceneProblem {
     /// A name of no solid.
     #[error("no solid is named `{name}`{}\n  allowed: {}\n  way out: {}", did_you_mean(.nearest.as_ref()), if .solids.is_empty() { "names of `solids`; there is none".to_owned() } else { list(.solids) }, rename_or_add(.nearest.as_ref()))]
     UnknownSolid { name: String, nearest: Option<String>, solids: Vec<String> },
+    /// Both at once.
+    #[error(
+        "the scene has `fluid` and `grains`\n  allowed: one of the two; grains do not move in a fluid yet\n  way out: leave one of them out"
+    )]
+    FluidAndGrains,
+    /// A name of nothing.
+    #[error("no {kind} is named `{name}`{}\n  allowed: {}\n  way out: {}", did_you_mean(.nearest.as_ref()), if .names.is_empty() { format!("names of a {kind}; there is none") } else { list(.names) }, rename_or_define(.nearest.as_ref(), .kind))]
+    UnknownName { kind: &'static str, name: String, nearest: Option<String>, names: Vec<String> },
+    /// A list without entries.
+    #[error("found an empty list\n  allowed: at least one entry\n  way out: add {what}")]
+    EmptyList { what: &'static str },
+    /// A shape that this cannot be done with.
+    #[error("this shape cannot be {what}\n  allowed: {allowed}\n  way out: {way_out}")]
+    ShapeNotForGrains { what: &'static str, allowed: &'static str, way_out: &'static str },
+    /// A rotation by nothing.
+    #[error(
+        "found [0, 0, 0, 0]\n  allowed: any quaternion (w, x, y, z) but this one; it turns nowhere\n  way out: [1, 0, 0, 0] for the clump as drawn"
+    )]
+    ZeroQuaternion,
+    /// A sieve curve that does not rise from 0 to 1.
+    #[error(
+        "this is no sieve curve\n  allowed: at least two [diameter in m, share of the mass that passes], diameters above 0 and rising, shares rising from 0 to 1\n  way out: add the diameter that nothing passes at the start, and the one that all passes at the end"
+    )]
+    BadSieveCurve,
     /// Outside the box.
     #[error(
         "axis {axis}: found {low} m to {high} m\n  allowed: something between 0 m and {size} m, the box\n  way out: move it into the box, or remove it"
@@ -227,6 +251,10 @@ pub enum SceneProblem {
     BeyondEnd { found: f64, end: f64 },
 }
 
+fn range(low: f64, high: f64) -> String {
+    if high == f64::INFINITY { format!("at least {low}") } else { format!("{low} to {high}") }
+}
+
 fn with_space(unit: &str) -> String {
     if unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
@@ -241,6 +269,10 @@ fn rename_or_remove(nearest: Option<&String>) -> String {
 
 fn rename_or_add(nearest: Option<&String>) -> String {
     nearest.map_or_else(|| "name one of `solids`".to_owned(), |name| format!("write `{name}`"))
+}
+
+fn rename_or_define(nearest: Option<&String>, kind: &str) -> String {
+    nearest.map_or_else(|| format!("name a {kind} of the scene, or add it"), |name| format!("write `{name}`"))
 }
 
 fn choose(nearest: Option<&String>, allowed: &[String]) -> String {

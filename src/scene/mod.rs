@@ -2,6 +2,7 @@
 
 mod check;
 mod domain;
+pub mod dry;
 mod error;
 mod fluid;
 mod nearest;
@@ -77,16 +78,57 @@ impl Scene {
     }
 }
 
-/// Reads and checks a scene file.
+/// A scene file of either kind.
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[schemars(untagged)]
+pub enum AnyScene {
+    /// With fluid.
+    Flow(Box<Scene>),
+    /// Grains without fluid.
+    Dry(Box<dry::DryScene>),
+}
+
+/// Reads and checks a scene file of either kind: one that has `grains` and no `fluid` is dry.
+///
+/// # Errors
+/// As [`load`].
+pub fn read(path: &Path) -> Result<AnyScene, SceneError> {
+    let (text, file) = text_of(path)?;
+    if parse::subject(&text) != parse::Subject::Dry {
+        return from_json(&text, &file).map(|scene| AnyScene::Flow(Box::new(scene)));
+    }
+    let folder = path.parent().unwrap_or(Path::new("."));
+    dry_from_json(&text, &file, folder).map(|scene| AnyScene::Dry(Box::new(scene)))
+}
+
+/// Checks a scene without fluid given as text; `folder` is where meshes and tables are looked for.
+///
+/// # Errors
+/// As [`load`].
+pub fn dry_from_json(text: &str, file: &str, folder: &Path) -> Result<dry::DryScene, SceneError> {
+    let mut scene: dry::DryScene = parse::parse(text, file)?;
+    file.clone_into(&mut scene.file);
+    folder.clone_into(&mut scene.folder);
+    dry::check(&scene)?;
+    Ok(scene)
+}
+
+fn text_of(path: &Path) -> Result<(String, String), SceneError> {
+    let file =
+        path.file_name().map_or_else(|| "scene".to_owned(), |name| name.to_string_lossy().into_owned());
+    match std::fs::read_to_string(path) {
+        Ok(text) => Ok((text, file)),
+        Err(error) => Err(SceneError::new(&file, "", SceneProblem::Unreadable { kind: error.kind() })),
+    }
+}
+
+/// Reads and checks a scene file with fluid.
 ///
 /// # Errors
 /// The file cannot be read, is not JSON, does not have the shape of a scene, or holds values that
 /// make no sense. The message names the file (without its folder) and the JSON path.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
-    let file =
-        path.file_name().map_or_else(|| "scene".to_owned(), |name| name.to_string_lossy().into_owned());
-    let text = std::fs::read_to_string(path)
-        .map_err(|error| SceneError::new(&file, "", SceneProblem::Unreadable { kind: error.kind() }))?;
+    let (text, file) = text_of(path)?;
     from_json(&text, &file)
 }
 
@@ -95,7 +137,10 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
 /// # Errors
 /// As [`load`].
 pub fn from_json(text: &str, file: &str) -> Result<Scene, SceneError> {
-    let mut scene = parse::parse(text, file)?;
+    if parse::subject(text) == parse::Subject::Both {
+        return Err(SceneError::new(file, "grains", SceneProblem::FluidAndGrains));
+    }
+    let mut scene: Scene = parse::parse(text, file)?;
     file.clone_into(&mut scene.file);
     check::check(&scene)?;
     Ok(scene)
@@ -104,6 +149,6 @@ pub fn from_json(text: &str, file: &str) -> Result<Scene, SceneError> {
 /// The JSON Schema of a scene, pretty-printed, with a final newline.
 #[must_use]
 pub fn schema() -> String {
-    let schema = schemars::schema_for!(Scene);
+    let schema = schemars::schema_for!(AnyScene);
     format!("{:#}\n", schema.as_value())
 }

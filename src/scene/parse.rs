@@ -1,12 +1,13 @@
-//! JSON text to [`Scene`], and the parser's complaints to [`SceneError`].
+//! JSON text to a scene, and the parser's complaints to [`SceneError`].
 
+use serde::de::DeserializeOwned;
 use serde_json::error::Category;
 
 use super::nearest::nearest;
-use super::{Scene, SceneError, SceneProblem};
+use super::{SceneError, SceneProblem};
 
 /// Parses without checking values.
-pub(super) fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
+pub(super) fn parse<S: DeserializeOwned>(text: &str, file: &str) -> Result<S, SceneError> {
     if text.trim_start().starts_with('[') {
         // serde would read the keys of a scene from an array, in order.
         let problem = SceneProblem::WrongType {
@@ -17,7 +18,7 @@ pub(super) fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
     }
     let mut reader = serde_json::Deserializer::from_str(text);
     let located = |path: String, problem| SceneError::new(file, path, problem);
-    let scene: Scene = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
+    let scene: S = serde_path_to_error::deserialize(&mut reader).map_err(|error| {
         let path = error.path().to_string();
         let inner = error.into_inner();
         match inner.classify() {
@@ -32,6 +33,35 @@ pub(super) fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
     })?;
     reader.end().map_err(|error| located(String::new(), syntax_problem(text, &error)))?;
     Ok(scene)
+}
+
+/// What a scene is about, by its keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Subject {
+    /// A flow, or nothing that can be told.
+    Flow,
+    /// Grains without fluid.
+    Dry,
+    /// Grains and fluid.
+    Both,
+}
+
+/// Looks for the keys `fluid` and `grains`.
+pub(super) fn subject(text: &str) -> Subject {
+    /// Only whether the keys are there.
+    #[derive(serde::Deserialize)]
+    struct Keys {
+        fluid: Option<serde::de::IgnoredAny>,
+        grains: Option<serde::de::IgnoredAny>,
+    }
+    if !text.trim_start().starts_with('{') {
+        return Subject::Flow;
+    }
+    match serde_json::from_str::<Keys>(text) {
+        Ok(Keys { fluid: Some(_), grains: Some(_) }) => Subject::Both,
+        Ok(Keys { fluid: None, grains: Some(_) }) => Subject::Dry,
+        _ => Subject::Flow,
+    }
 }
 
 fn is_json(text: &str) -> bool {

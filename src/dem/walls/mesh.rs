@@ -91,6 +91,15 @@ impl Mesh {
         Ok(Self { vertices, triangles, edges, edge_count: edge_numbers.len() as u32, tree })
     }
 
+    /// The mesh scaled about the origin, then shifted (m).
+    ///
+    /// # Errors
+    /// As [`Mesh::new`]: a scale that makes corners infinite or areas vanish.
+    pub fn moved(&self, scale: f64, shift: V3) -> Result<Self, DemError> {
+        let corners: Vec<V3> = self.vertices.iter().map(|v| v * scale + shift).collect();
+        Self::new(&corners, &self.triangles)
+    }
+
     /// Triangles whose box is within `reach` of `x`, ascending.
     pub fn within(&self, x: &V3, reach: f64) -> Vec<u32> {
         let mut found = Vec::new();

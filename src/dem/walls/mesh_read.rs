@@ -18,13 +18,13 @@ impl Mesh {
     pub fn read(path: &Path) -> Result<Self, DemError> {
         let io = |e: std::io::Error| DemError::MeshFile {
             path: path.display().to_string(),
-            source: Arc::new(MeshIo { message: e.to_string() }),
+            source: Arc::new(MeshIo { message: e.kind().to_string() }),
         };
         let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
         match ending.as_deref() {
             Some("stl") => Self::from_stl(&std::fs::read(path).map_err(io)?),
             Some("obj") => Self::from_obj(&std::fs::read_to_string(path).map_err(io)?),
-            _ => fail(format!("{}: only .stl and .obj are read", path.display()), None),
+            _ => fail("only files ending in .stl and .obj are read", None),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Checker, SceneError, SceneProblem};
 use crate::geometry::Axis;
-use crate::scene::{Boundary, Domain, FACE_KEYS};
+use crate::scene::{Boundaries, Boundary, Domain, FACE_KEYS};
 
 /// Largest number of cells: cell indices are 32-bit, the last one is kept free.
 const MAX_CELLS: u64 = u32::MAX as u64;
@@ -42,11 +42,12 @@ pub(super) fn check(at: &Checker, domain: &Domain) -> Result<(), SceneError> {
             nearest: round_to(whole * spacing, 1e12),
         })?;
     }
-    boundaries(at, domain)
+    boundaries(at, &domain.boundaries)
 }
 
-fn boundaries(at: &Checker, domain: &Domain) -> Result<(), SceneError> {
-    for (axis, faces) in Axis::ALL.into_iter().zip(domain.boundaries.by_axis()) {
+/// Both faces of an axis are periodic or none is; walls slide in their plane.
+pub(in crate::scene) fn boundaries(at: &Checker, boundaries: &Boundaries) -> Result<(), SceneError> {
+    for (axis, faces) in Axis::ALL.into_iter().zip(boundaries.by_axis()) {
         let keys = FACE_KEYS[axis.index()];
         let periodic = faces.map(|face| face == Boundary::Periodic);
         if periodic[0] != periodic[1] {

@@ -7,7 +7,7 @@ use crate::scene::{BodyForce, Boundary, Domain, Gravity, InitialVelocity, Rheolo
 /// Solids and layers are numbered in one byte, 0 being fluid (or the first fluid).
 const MAX_ENTRIES: usize = 255;
 
-pub(super) fn check_gravity(at: &Checker, gravity: &Gravity) -> Result<(), SceneError> {
+pub(in crate::scene) fn check_gravity(at: &Checker, gravity: &Gravity) -> Result<(), SceneError> {
     let path = "gravity.magnitude_m_per_s2";
     let magnitude = gravity.magnitude_m_per_s2;
     at.not_negative(path, magnitude, "m/s²", "its direction is a key of its own", "turn `direction` round")?;

@@ -6,6 +6,11 @@ mod numerics;
 mod output;
 mod surface;
 
+pub(super) use domain::boundaries;
+pub(super) use fluid::check_gravity;
+pub(super) use numerics::check_arrested;
+pub(super) use output::cadence;
+
 use super::{Scene, SceneError, SceneProblem};
 use crate::geometry::{Axis, Shape};
 
@@ -26,21 +31,26 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
 }
 
 /// Knows the file name and builds located errors.
-struct Checker<'a> {
-    file: &'a str,
+pub(super) struct Checker<'a> {
+    pub(super) file: &'a str,
 }
 
 impl Checker<'_> {
-    fn fail(&self, path: impl Into<String>, problem: SceneProblem) -> Result<(), SceneError> {
+    pub(super) fn fail(&self, path: impl Into<String>, problem: SceneProblem) -> Result<(), SceneError> {
         Err(SceneError::new(self.file, path, problem))
     }
 
-    fn ensure(&self, ok: bool, path: &str, problem: impl FnOnce() -> SceneProblem) -> Result<(), SceneError> {
+    pub(super) fn ensure(
+        &self,
+        ok: bool,
+        path: &str,
+        problem: impl FnOnce() -> SceneProblem,
+    ) -> Result<(), SceneError> {
         if ok { Ok(()) } else { self.fail(path, problem()) }
     }
 
     /// `found` > 0.
-    fn positive(
+    pub(super) fn positive(
         &self,
         path: &str,
         found: f64,
@@ -52,7 +62,7 @@ impl Checker<'_> {
     }
 
     /// `found` ≥ 0.
-    fn not_negative(
+    pub(super) fn not_negative(
         &self,
         path: &str,
         found: f64,
@@ -64,7 +74,7 @@ impl Checker<'_> {
     }
 
     /// A name that can be a column or part of a file name, and is not among `used`.
-    fn name(&self, path: &str, name: &str, used: &mut Vec<String>) -> Result<(), SceneError> {
+    pub(super) fn name(&self, path: &str, name: &str, used: &mut Vec<String>) -> Result<(), SceneError> {
         let good =
             !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
         self.ensure(good, path, || SceneProblem::BadName { name: name.to_owned() })?;
@@ -75,7 +85,13 @@ impl Checker<'_> {
     }
 
     /// A shape with an inside that reaches into the box.
-    fn shape(&self, path: &str, shape: &Shape, size_m: [f64; 3], inverted: bool) -> Result<(), SceneError> {
+    pub(super) fn shape(
+        &self,
+        path: &str,
+        shape: &Shape,
+        size_m: [f64; 3],
+        inverted: bool,
+    ) -> Result<(), SceneError> {
         match shape {
             Shape::Box { min_m, max_m } => {
                 for axis in Axis::ALL {
@@ -210,7 +226,13 @@ impl Checker<'_> {
     }
 
     /// A coordinate inside the box.
-    fn position(&self, path: &str, axis: Axis, at: f64, size_m: [f64; 3]) -> Result<(), SceneError> {
+    pub(super) fn position(
+        &self,
+        path: &str,
+        axis: Axis,
+        at: f64,
+        size_m: [f64; 3],
+    ) -> Result<(), SceneError> {
         let size = size_m[axis.index()];
         self.ensure((0.0..=size).contains(&at), path, || SceneProblem::OutsideDomain {
             axis: axis.letter(),

@@ -1,7 +1,9 @@
 //! Checks of numerical choices and of when to stop.
 
 use super::{Checker, SceneError, SceneProblem};
-use crate::scene::{ClampLimits, Collision, Numerics, Operator, PrecisionChoice, Stop, YieldChoice};
+use crate::scene::{
+    Arrested, ClampLimits, Collision, Numerics, Operator, PrecisionChoice, Stop, YieldChoice,
+};
 
 const STEP_KEYS: &[&str] = &["time_step_s", "relaxation_time", "target_mach"];
 
@@ -145,15 +147,24 @@ pub(super) fn check_stop(at: &Checker, stop: &Stop) -> Result<(), SceneError> {
         let end = stop.end_time_s;
         at.ensure(every <= end, path, || SceneProblem::BeyondEnd { found: every, end })?;
     }
-    if let Some(arrested) = stop.arrested {
-        let path = |key: &str| format!("stop.arrested.{key}");
-        let way_out = "a thousandth of the speed of the flow";
-        at.positive(&path("speed_m_per_s"), arrested.speed_m_per_s, "m/s", "it is a speed", way_out)?;
-        let end = stop.end_time_s;
-        for (key, found) in [("for_s", arrested.for_s), ("check_every_s", arrested.check_every_s)] {
-            at.positive(&path(key), found, "s", "it is an interval", "a hundredth of `stop.end_time_s`")?;
-            at.ensure(found <= end, &path(key), || SceneProblem::BeyondEnd { found, end })?;
-        }
+    match stop.arrested {
+        Some(arrested) => check_arrested(at, &arrested, stop.end_time_s),
+        None => Ok(()),
+    }
+}
+
+/// The rule that ends a run at rest.
+pub(in crate::scene) fn check_arrested(
+    at: &Checker,
+    arrested: &Arrested,
+    end: f64,
+) -> Result<(), SceneError> {
+    let path = |key: &str| format!("stop.arrested.{key}");
+    let way_out = "a thousandth of the speed of the flow";
+    at.positive(&path("speed_m_per_s"), arrested.speed_m_per_s, "m/s", "it is a speed", way_out)?;
+    for (key, found) in [("for_s", arrested.for_s), ("check_every_s", arrested.check_every_s)] {
+        at.positive(&path(key), found, "s", "it is an interval", "a hundredth of `stop.end_time_s`")?;
+        at.ensure(found <= end, &path(key), || SceneProblem::BeyondEnd { found, end })?;
     }
     Ok(())
 }

@@ -100,7 +100,13 @@ fn optional(
     }
 }
 
-fn cadence(at: &Checker, path: &str, cadence: Option<Cadence>, end: f64) -> Result<(), SceneError> {
+/// An interval within the run, or a number that can be counted.
+pub(in crate::scene) fn cadence(
+    at: &Checker,
+    path: &str,
+    cadence: Option<Cadence>,
+    end: f64,
+) -> Result<(), SceneError> {
     match cadence {
         None => Ok(()),
         Some(Cadence::EverySeconds(every)) => {

@@ -1,0 +1,74 @@
+//! The table of `lahar plan` for a scene without fluid.
+
+use std::fmt;
+
+use super::GrainNumbers;
+use crate::plan::memory::human;
+use crate::plan::print::row;
+pub(super) use crate::plan::print::short;
+
+pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
+    writeln!(f, "{}\n\nGrains", n.title)?;
+    let kinds = match (n.clumps, n.driven) {
+        (0, 0) => String::new(),
+        (clumps, 0) => format!(", {clumps} of them clumps"),
+        (0, driven) => format!(", {driven} of them driven"),
+        (clumps, driven) => format!(", {clumps} of them clumps, {driven} driven"),
+    };
+    row(f, "grains", format_args!("{}{kinds}; {} spheres", n.grains, n.spheres))?;
+    let (least, largest) = (short(n.least_radius_m), short(n.largest_radius_m));
+    row(f, "radii", format_args!("{least} to {largest} m; spheres differ {} times", short(n.size_ratio)))?;
+    row(f, "mass", format_args!("{} kg", short(n.mass_kg)))?;
+    row(f, "volume", format_args!("{} of the box", short(n.solid_fraction)))?;
+    row(f, "touching at time 0", format_args!("{} pairs", n.contacts))?;
+    row(f, "walls", format_args!("{}, {} triangles", n.walls, n.triangles))?;
+    writeln!(f, "\nContacts")?;
+    let given =
+        if n.design_speed_given { "given" } else { "the fastest grain after falling through the box" };
+    row(f, "design speed", format_args!("{} m/s: {given}", short(n.design_speed_m_per_s)))?;
+    row(f, "shortest contact", format_args!("{} s: {}", short(n.contact_time_s), n.contact_pair))?;
+    row(
+        f,
+        "restitution, largest and least",
+        format_args!("{:.4}, {:.4}", n.restitution[0], n.restitution[1]),
+    )?;
+    row(f, "overlap of an impact", format_args!("{} of the radius", short(n.impact_overlap)))?;
+    row(f, "overlap below a pile", format_args!("{} of the radius", short(n.static_overlap)))?;
+    row(f, "run stops at", format_args!("{} of the radius", short(n.overlap_limit)))?;
+    writeln!(f, "\nTime")?;
+    let rule = if n.time_step_given { "given" } else { "chosen" };
+    row(
+        f,
+        "time step",
+        format_args!(
+            "{} s, {rule}: {} steps in the shortest contact",
+            short(n.time_step_s),
+            short(n.steps_per_contact)
+        ),
+    )?;
+    row(f, "steps", format_args!("{} to {} s", n.steps, short(n.end_time_s)))?;
+    row(f, "integrator", format_args!("{}", n.integrator))?;
+    writeln!(f, "\nNeeded")?;
+    for pass in n.passes.iter().filter(|pass| pass.needed) {
+        row(f, pass.pass, format_args!("{}", pass.because))?;
+    }
+    writeln!(f, "\nNot needed, not paid for")?;
+    for pass in n.passes.iter().filter(|pass| !pass.needed) {
+        row(f, pass.pass, format_args!("{}", pass.because))?;
+    }
+    writeln!(f, "\nCost")?;
+    row(f, "memory", format_args!("{}, if grains are packed densely", human(n.bytes)))?;
+    row(f, "sphere updates", format_args!("{}", short(n.sphere_updates)))?;
+    row(
+        f,
+        "rough time",
+        format_args!(
+            "{} s on one thread, assuming 2 million sphere updates per second",
+            short(n.estimated_seconds)
+        ),
+    )?;
+    if !n.warnings.is_empty() {
+        writeln!(f, "\nWarnings")?;
+    }
+    n.warnings.iter().try_for_each(|warning| writeln!(f, "  - {warning}"))
+}

@@ -1,0 +1,90 @@
+//! Plots of a run without fluid.
+
+use super::Grains;
+use super::writer::Writer;
+use crate::geometry::Axis as Direction;
+use crate::output::discs::{self, Disc, Discs};
+use crate::output::plot::{Axis, Plot, Series as Curve};
+use crate::output::{OutputError, atomic, svg};
+
+impl Writer<'_> {
+    /// Every probe over time, and the grains seen from the side.
+    pub fn plots(&self, grains: &Grains) -> Result<(), OutputError> {
+        let mut column = 1;
+        for (name, count) in &self.groups {
+            let mut from = column;
+            // Neighbouring columns of one unit share a figure.
+            while from < column + count {
+                let unit = &self.series.columns[from].unit;
+                let same =
+                    (from..column + count).take_while(|&c| &self.series.columns[c].unit == unit).count();
+                let first = self.series.columns[from].name.as_str();
+                // Vectors go by their name without the component.
+                let vector = if same > 1 { first.strip_suffix("_x").unwrap_or(first) } else { first };
+                let file = if same == *count { name } else { vector };
+                self.series_plot(file, from..from + same)?;
+                from += same;
+            }
+            column += count;
+        }
+        self.svg("grains.svg", &discs::draw(&self.side_view(grains)))
+    }
+
+    fn series_plot(&self, file: &str, range: std::ops::Range<usize>) -> Result<(), OutputError> {
+        let first = &self.series.columns[range.start];
+        let unit = if first.unit == "-" { "" } else { first.unit.as_str() };
+        let alone = range.len() == 1;
+        let mut plot =
+            Plot::new(&self.plan.numbers.title, Axis::linear("time", "s"), Axis::linear(file, unit));
+        for column in range {
+            let points: Vec<[f64; 2]> = self.series.rows.iter().map(|row| [row[0], row[column]]).collect();
+            if alone || points.iter().any(|point| point[1] != 0.0) {
+                plot = plot.with(Curve::line(&self.series.columns[column].name, points));
+            }
+        }
+        self.svg(&format!("series_{file}.svg"), &svg::draw(&plot)?)
+    }
+
+    /// All spheres seen along the shortest axis of the box, but never from above.
+    fn side_view(&self, grains: &Grains) -> Discs {
+        let g = self.plan.setup.gravity;
+        let up = Direction::ALL.into_iter().max_by(|a, b| g[a.index()].abs().total_cmp(&g[b.index()].abs()));
+        let up = up.filter(|axis| g[axis.index()] != 0.0).unwrap_or(Direction::Z);
+        let size = self.scene.domain.size_m;
+        let level = Direction::ALL.into_iter().filter(|axis| *axis != up);
+        let depth = level.clone().min_by(|a, b| size[a.index()].total_cmp(&size[b.index()]));
+        let depth = depth.unwrap_or(Direction::Y);
+        let across = level.into_iter().find(|axis| *axis != depth).unwrap_or(Direction::X);
+        let (d, a, u) = (depth.index(), across.index(), up.index());
+        let fold = |x: f64, k: usize| match self.plan.setup.period.0[k] {
+            Some(length) => x - (x / length).floor() * length,
+            None => x,
+        };
+        let mut discs: Vec<(f64, Disc)> = (grains.dem.members().iter())
+            .map(|m| {
+                let x = m.position;
+                let disc = Disc {
+                    centre: [fold(x[a], a), fold(x[u], u)],
+                    radius: m.radius,
+                    value: m.velocity.norm(),
+                    driven: m.inverse_mass == 0.0,
+                };
+                (fold(x[d], d), disc)
+            })
+            .collect();
+        // Far ones first.
+        discs.sort_by(|p, q| q.0.total_cmp(&p.0));
+        Discs {
+            title: format!("{}: {:.4} s", self.plan.numbers.title, grains.dem.time()),
+            label: "speed".to_owned(),
+            unit: "m/s".to_owned(),
+            axes: [across.letter().to_string(), up.letter().to_string()],
+            size_m: [size[a], size[u]],
+            discs: discs.into_iter().map(|(_, disc)| disc).collect(),
+        }
+    }
+
+    fn svg(&self, name: &str, text: &str) -> Result<(), OutputError> {
+        atomic::write(&self.path("plots").join(name), text.as_bytes())
+    }
+}

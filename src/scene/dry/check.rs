@@ -1,0 +1,429 @@
+//! Value checks of scenes without fluid. The first problem found is reported; order is that of the file.
+
+use super::{
+    ClumpMembers, Contact, ContactLaw, DryScene, GrainMeasure, GrainSet, GrainSolid, Placement, SizeChoice,
+    Target,
+};
+use crate::geometry::{Axis, Shape};
+use crate::scene::check::{Checker, boundaries, cadence, check_arrested, check_gravity};
+use crate::scene::nearest::nearest;
+use crate::scene::{FACE_KEYS, SceneError, SceneProblem};
+
+/// Checks every value that can be judged without placing grains.
+pub fn check(scene: &DryScene) -> Result<(), SceneError> {
+    let at = Checker { file: &scene.file };
+    domain(&at, scene)?;
+    if let Some(gravity) = &scene.gravity {
+        check_gravity(&at, gravity)?;
+    }
+    materials(&at, scene)?;
+    clumps(&at, scene)?;
+    sets(&at, scene)?;
+    numerics(&at, scene)?;
+    solids(&at, scene)?;
+    let end = scene.stop.end_time_s;
+    at.positive("stop.end_time_s", end, "s", "else there is nothing to compute", "a time > 0")?;
+    if let Some(arrested) = scene.stop.arrested {
+        check_arrested(&at, &arrested, end)?;
+    }
+    output(&at, scene)
+}
+
+fn domain(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
+    at.ensure(scene.domain.spacing_m.is_none(), "domain.spacing_m", || SceneProblem::UnusedKey {
+        key: "spacing_m",
+        because: "a scene without `fluid` has no cells",
+    })?;
+    for axis in Axis::ALL {
+        let a = axis.index();
+        let path = format!("domain.size_m[{a}]");
+        at.positive(&path, scene.domain.size_m[a], "m", "it is an edge of the box", "a length > 0")?;
+    }
+    boundaries(at, &scene.domain.boundaries)
+}
+
+fn materials(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
+    let list = &scene.grains.materials;
+    some(at, "grains.materials", list.len(), "a material")?;
+    let mut names = Vec::new();
+    for (i, m) in list.iter().enumerate() {
+        let path = |key: &str| format!("grains.materials[{i}].{key}");
+        at.name(&path("name"), &m.name, &mut names)?;
+        let density = path("density_kg_per_m3");
+        at.positive(&density, m.density_kg_per_m3, "kg/m³", "grains need mass", "2650 for quartz")?;
+        let because = "Hertz contact needs stiffness [D1]";
+        at.positive(&path("young_modulus_pa"), m.young_modulus_pa, "Pa", because, "7e10 for glass")?;
+        let (found, low, high) = (m.poisson_ratio, -1.0, 0.5);
+        at.ensure(found > low && found < high, &path("poisson_ratio"), || SceneProblem::OutOfRange {
+            found,
+            unit: "",
+            low,
+            high,
+            because: "both ends excluded: beyond them an isotropic solid is unstable",
+            way_out: "0.22 for glass",
+        })?;
+    }
+    contact(at, "grains.contact", &scene.grains.contact)?;
+    for (i, pair) in scene.grains.pairs.iter().enumerate() {
+        for (k, name) in pair.between.iter().enumerate() {
+            known(at, &format!("grains.pairs[{i}].between[{k}]"), "material", name, &names)?;
+        }
+        contact(at, &format!("grains.pairs[{i}].contact"), &pair.contact)?;
+    }
+    optional_name(at, "grains.wall_material", "material", scene.grains.wall_material.as_ref(), &names)
+}
+
+fn contact(at: &Checker, path: &str, contact: &Contact) -> Result<(), SceneError> {
+    let restitution = |key: &str, e: f64| {
+        at.ensure(e > 0.0 && e <= 1.0, &format!("{path}.law.{key}.restitution"), || {
+            SceneProblem::OutOfRange {
+                found: e,
+                unit: "",
+                low: 0.0,
+                high: 1.0,
+                because: "0 excluded: it is the share of the speed that a collision leaves",
+                way_out: "0.9 for hard spheres",
+            }
+        })
+    };
+    let more = |key: &str, value: f64, unit: &'static str| {
+        at.not_negative(&format!("{path}.{key}"), value, unit, "it only resists", "0 for none")
+    };
+    match contact.law {
+        ContactLaw::ViscoElastic { dissipative_time_s } => {
+            more("law.visco_elastic.dissipative_time_s", dissipative_time_s, "s")?;
+        }
+        ContactLaw::Tsuji { restitution: e } => restitution("tsuji", e)?,
+        ContactLaw::TsujiDamping { alpha } => more("law.tsuji_damping.alpha", alpha, "")?,
+        ContactLaw::Linear { stiffness_n_per_m, restitution: e, tangential_ratio } => {
+            let path = |key: &str| format!("{path}.law.linear.{key}");
+            let (because, way_out) = ("a spring needs stiffness", "1e5");
+            at.positive(&path("stiffness_n_per_m"), stiffness_n_per_m, "N/m", because, way_out)?;
+            at.positive(&path("tangential_ratio"), tangential_ratio, "", because, "0.2857, which is 2/7")?;
+            restitution("linear", e)?;
+        }
+    }
+    more("friction", contact.friction, "")?;
+    more("rolling_friction", contact.rolling_friction, "")?;
+    more("tangential_damping", contact.tangential_damping, "")
+}
+
+fn clumps(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
+    let mut names = Vec::new();
+    for (i, clump) in scene.grains.clumps.iter().enumerate() {
+        at.name(&format!("grains.clumps[{i}].name"), &clump.name, &mut names)?;
+        let path = format!("grains.clumps[{i}].members");
+        match &clump.members {
+            ClumpMembers::Tetrahedron { edge_over_radius } => {
+                let path = format!("{path}.tetrahedron.edge_over_radius");
+                let (low, high) = (0.0, 2.0);
+                at.ensure(*edge_over_radius > low && *edge_over_radius <= high, &path, || {
+                    SceneProblem::OutOfRange {
+                        found: *edge_over_radius,
+                        unit: "",
+                        low,
+                        high,
+                        because: "0 excluded, there the four are one; beyond 2 they do not touch",
+                        way_out: "1.2 for a rounded clump, 2 for an angular one",
+                    }
+                })?;
+            }
+            ClumpMembers::Spheres(members) => {
+                some(at, &format!("{path}.spheres"), members.len(), "a sphere")?;
+                for (k, member) in members.iter().enumerate() {
+                    let path = format!("{path}.spheres[{k}].radius_m");
+                    at.positive(&path, member.radius_m, "m", "it is a radius", "remove the sphere")?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn sets(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
+    some(at, "grains.sets", scene.grains.sets.len(), "a set of grains")?;
+    let materials: Vec<String> = scene.grains.materials.iter().map(|m| m.name.clone()).collect();
+    let clumps: Vec<String> = scene.grains.clumps.iter().map(|c| c.name.clone()).collect();
+    let mut names = Vec::new();
+    for (i, set) in scene.grains.sets.iter().enumerate() {
+        let path = |key: &str| format!("grains.sets[{i}].{key}");
+        at.name(&path("name"), &set.name, &mut names)?;
+        optional_name(at, &path("material"), "material", set.material.as_ref(), &materials)?;
+        optional_name(at, &path("clump"), "clump", set.clump.as_ref(), &clumps)?;
+        let random = path("random_speed_m_per_s");
+        let because = "it is a standard deviation";
+        at.not_negative(&random, set.random_speed_m_per_s, "m/s", because, "0 for none")?;
+        placement(at, &path("place"), set, scene.domain.size_m)?;
+    }
+    Ok(())
+}
+
+fn placement(at: &Checker, path: &str, set: &GrainSet, size_m: [f64; 3]) -> Result<(), SceneError> {
+    let radius = |path: &str, r: f64| at.positive(path, r, "m", "it is a radius", "a radius > 0");
+    match &set.place {
+        Placement::List(list) => {
+            some(at, &format!("{path}.list"), list.len(), "a grain")?;
+            for (k, grain) in list.iter().enumerate() {
+                let path = |key: &str| format!("{path}.list[{k}].{key}");
+                radius(&path("radius_m"), grain.radius_m)?;
+                let turned = grain.orientation.is_none_or(|q| q != [0.0; 4]);
+                at.ensure(turned, &path("orientation"), || SceneProblem::ZeroQuaternion)?;
+            }
+            Ok(())
+        }
+        Placement::Lattice { region, radius_m, spacing_m, .. } => {
+            let path = format!("{path}.lattice");
+            self::region(at, &format!("{path}.region"), region, size_m)?;
+            radius(&format!("{path}.radius_m"), *radius_m)?;
+            let (found, low) = (spacing_m.unwrap_or(f64::INFINITY), 2.0 * radius_m);
+            at.ensure(found >= low, &format!("{path}.spacing_m"), || SceneProblem::OutOfRange {
+                found,
+                unit: "m",
+                low,
+                high: f64::INFINITY,
+                because: "the diameter; nearer neighbours overlap",
+                way_out: "leave it out for grains that touch",
+            })
+        }
+        Placement::Random { region, count, solid_fraction, sizes, gap_m, .. } => {
+            let path = format!("{path}.random");
+            self::region(at, &format!("{path}.region"), region, size_m)?;
+            match (count, solid_fraction) {
+                (Some(count), None) => at.ensure(*count > 0, &format!("{path}.count"), || {
+                    let (found, unit, because) = (0.0, "", "else the set is empty");
+                    SceneProblem::NotPositive { found, unit, because, way_out: "remove the set" }
+                })?,
+                (None, Some(share)) => {
+                    let (found, low, high) = (*share, 0.0, 0.5);
+                    let path = format!("{path}.solid_fraction");
+                    at.ensure(found > low && found <= high, &path, || SceneProblem::OutOfRange {
+                        found,
+                        unit: "",
+                        low,
+                        high,
+                        because: "0 excluded; random addition of equal spheres jams near 0.38, of mixtures above",
+                        way_out: "let a thinner packing settle, or use a lattice",
+                    })?;
+                }
+                (count, share) => {
+                    let found = if count.is_some() && share.is_some() { OF.to_vec() } else { Vec::new() };
+                    let because = "both say how many grains there are";
+                    at.fail(&path, SceneProblem::KeyCount { found, of: OF, rule: "exactly one", because })?;
+                }
+            }
+            self::sizes(at, &format!("{path}.sizes"), sizes)?;
+            at.not_negative(&format!("{path}.gap_m"), *gap_m, "m", "it is a distance", "0 for none")
+        }
+        Placement::Csv { .. } => Ok(()),
+    }
+}
+
+const OF: &[&str] = &["count", "solid_fraction"];
+
+fn region(at: &Checker, path: &str, region: &Shape, size_m: [f64; 3]) -> Result<(), SceneError> {
+    at.shape(path, region, size_m, false)?;
+    let fits = matches!(
+        region,
+        Shape::Box { .. } | Shape::Sphere { .. } | Shape::Cylinder { length_m: Some(_), .. }
+    );
+    at.ensure(fits, path, || SceneProblem::ShapeNotForGrains {
+        what: "filled with grains",
+        allowed: "`box`, `sphere`, `cylinder` with `length_m`",
+        way_out: "several sets in such shapes",
+    })
+}
+
+fn sizes(at: &Checker, path: &str, sizes: &SizeChoice) -> Result<(), SceneError> {
+    let least = |path: &str, r: f64| at.positive(path, r, "m", "it is a radius", "a radius > 0");
+    let ordered = |path: &str, low: f64, high: f64| {
+        at.ensure(low <= high, path, || SceneProblem::LimitsSwapped { low, high, unit: "m" })
+    };
+    match sizes {
+        SizeChoice::Equal { radius_m } => least(&format!("{path}.equal.radius_m"), *radius_m),
+        SizeChoice::Uniform { least_radius_m, largest_radius_m } => {
+            let path = format!("{path}.uniform");
+            least(&format!("{path}.least_radius_m"), *least_radius_m)?;
+            ordered(&path, *least_radius_m, *largest_radius_m)
+        }
+        SizeChoice::LogNormal { median_radius_m, deviation, least_radius_m, largest_radius_m } => {
+            let path = format!("{path}.log_normal");
+            least(&format!("{path}.least_radius_m"), *least_radius_m)?;
+            ordered(&path, *least_radius_m, *median_radius_m)?;
+            ordered(&path, *median_radius_m, *largest_radius_m)?;
+            let because = "it is a standard deviation";
+            at.not_negative(&format!("{path}.deviation"), *deviation, "", because, "0.3")
+        }
+        SizeChoice::Sieve { passing } => {
+            let rises = passing.windows(2).all(|w| w[0][0] < w[1][0] && w[0][1] <= w[1][1]);
+            let ends =
+                (passing.first().map(|p| p[1]), passing.last().map(|p| p[1])) == (Some(0.0), Some(1.0));
+            let good = rises && ends && passing.iter().all(|p| p[0] > 0.0);
+            at.ensure(good, &format!("{path}.sieve.passing"), || SceneProblem::BadSieveCurve)
+        }
+    }
+}
+
+fn numerics(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
+    let n = &scene.grains.numerics;
+    let path = |key: &str| format!("grains.numerics.{key}");
+    let positive = |key: &str, value: Option<f64>, unit: &'static str| {
+        let because = "else nothing moves on";
+        at.positive(&path(key), value.unwrap_or(1.0), unit, because, "leave it out for the default")
+    };
+    positive("time_step_s", n.time_step_s, "s")?;
+    positive("design_speed_m_per_s", n.design_speed_m_per_s, "m/s")?;
+    let range = |key: &str, value: Option<f64>, low: f64, high: f64, because: &'static str| {
+        let found = value.unwrap_or(low);
+        at.ensure(found >= low && found <= high, &path(key), || SceneProblem::OutOfRange {
+            found,
+            unit: "",
+            low,
+            high,
+            because,
+            way_out: "leave it out for the default",
+        })
+    };
+    let both = n.time_step_s.is_some() && n.steps_per_contact.is_some();
+    at.ensure(!both, &path("steps_per_contact"), || SceneProblem::UnusedKey {
+        key: "steps_per_contact",
+        because: "the time step is given",
+    })?;
+    range("steps_per_contact", n.steps_per_contact, 10.0, 1e6, "below 10 a collision is not resolved [D3]")?;
+    range("overlap_limit", n.overlap_limit, 1e-6, 0.9, "the contact laws hold for small overlaps")?;
+    range("start_overlap", n.start_overlap, 0.0, 0.9, "deeper is no contact")?;
+    range("skin", n.skin, 1e-3, 2.0, "shorter lists are made anew all the time, longer ones are slow")
+}
+
+fn solids(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
+    let materials: Vec<String> = scene.grains.materials.iter().map(|m| m.name.clone()).collect();
+    let mut names = Vec::new();
+    for (i, solid) in scene.solids.iter().enumerate() {
+        let path = |key: &str| format!("solids[{i}].{key}");
+        at.name(&path("name"), &solid.name, &mut names)?;
+        optional_name(at, &path("material"), "material", solid.material.as_ref(), &materials)?;
+        body(at, i, solid, scene.domain.size_m)?;
+    }
+    Ok(())
+}
+
+const BODY: &[&str] = &["shape", "mesh"];
+
+fn body(at: &Checker, i: usize, solid: &GrainSolid, size_m: [f64; 3]) -> Result<(), SceneError> {
+    let path = |key: &str| format!("solids[{i}].{key}");
+    match (&solid.shape, &solid.mesh) {
+        (Some(shape), None) => {
+            at.shape(&path("shape"), shape, size_m, solid.invert)?;
+            at.ensure(touchable(shape, solid.invert), &path("shape"), || SceneProblem::ShapeNotForGrains {
+                what: "touched by grains",
+                allowed: "`box`, `cylinder`, `sphere`, `half_space`, `polygon`, `heightfield`, and a `union` of those \
+                          that is not inverted",
+                way_out: "several solids, or a `mesh`",
+            })
+        }
+        (None, Some(mesh)) => {
+            at.ensure(!solid.invert, &path("invert"), || SceneProblem::UnusedKey {
+                key: "invert",
+                because: "a mesh is touched from both sides",
+            })?;
+            let scale = path("mesh.scale");
+            at.positive(&scale, mesh.scale.unwrap_or(1.0), "", "it is a length", "0.001 for millimetres")
+        }
+        (shape, mesh) => {
+            let found = if shape.is_some() && mesh.is_some() { BODY.to_vec() } else { Vec::new() };
+            let because = "both say where the wall is";
+            at.fail(
+                format!("solids[{i}]"),
+                SceneProblem::KeyCount { found, of: BODY, rule: "exactly one", because },
+            )
+        }
+    }
+}
+
+/// Whether contact with the surface of a shape can be found.
+fn touchable(shape: &Shape, inverted: bool) -> bool {
+    match shape {
+        Shape::Box { .. } | Shape::Cylinder { .. } | Shape::Sphere { .. } | Shape::HalfSpace { .. } => true,
+        Shape::Polygon { .. } | Shape::Heightfield(_) => !inverted,
+        Shape::Union(parts) => !inverted && parts.iter().all(|part| touchable(part, false)),
+        Shape::Cone { .. } | Shape::Intersection(_) | Shape::Difference { .. } => false,
+    }
+}
+
+fn output(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
+    let end = scene.stop.end_time_s;
+    cadence(at, "output.grains", scene.output.grains, end)?;
+    cadence(at, "output.series", scene.output.series, end)?;
+    let sets: Vec<String> = scene.grains.sets.iter().map(|s| s.name.clone()).collect();
+    let solids: Vec<String> = scene.solids.iter().map(|s| s.name.clone()).collect();
+    let mut names = Vec::new();
+    for (i, probe) in scene.output.probes.iter().enumerate() {
+        let path = |key: &str| format!("output.probes[{i}].{key}");
+        at.name(&path("name"), &probe.name, &mut names)?;
+        match &probe.measure {
+            GrainMeasure::Grain { set, .. } => known(at, &path("measure.grain.set"), "set", set, &sets)?,
+            GrainMeasure::Flux { normal, at_m } => {
+                at.position(&path("measure.flux.at_m"), *normal, *at_m, scene.domain.size_m)?;
+            }
+            GrainMeasure::Force { on: Target::Solid(name) } => {
+                known(at, &path("measure.force.on.solid"), "solid", name, &solids)?;
+            }
+            GrainMeasure::Force { on: Target::Face(name) } => {
+                let faces: Vec<String> = FACE_KEYS.iter().flatten().map(|key| (*key).to_owned()).collect();
+                known(at, &path("measure.force.on.face"), "face", name, &faces)?;
+            }
+            GrainMeasure::Pile { along, up, share } => {
+                let up = up.unwrap_or(Axis::Z);
+                at.ensure(up != *along, &path("measure.pile.along"), || SceneProblem::AcrossBed {
+                    axis: along.letter(),
+                })?;
+                let (found, low, high) = (share.unwrap_or(0.005), 0.0, 0.5);
+                at.ensure(found >= low && found < high, &path("measure.pile.share"), || {
+                    SceneProblem::OutOfRange {
+                        found,
+                        unit: "",
+                        low,
+                        high,
+                        because: "0.5 excluded: beyond it nothing is left",
+                        way_out: "leave it out for 0.005",
+                    }
+                })?;
+            }
+            GrainMeasure::KineticEnergy
+            | GrainMeasure::MaxSpeed
+            | GrainMeasure::Mass
+            | GrainMeasure::Contacts
+            | GrainMeasure::Energies
+            | GrainMeasure::Momentum => {}
+        }
+    }
+    Ok(())
+}
+
+fn some(at: &Checker, path: &str, count: usize, what: &'static str) -> Result<(), SceneError> {
+    at.ensure(count > 0, path, || SceneProblem::EmptyList { what })
+}
+
+fn optional_name(
+    at: &Checker,
+    path: &str,
+    kind: &'static str,
+    name: Option<&String>,
+    names: &[String],
+) -> Result<(), SceneError> {
+    name.map_or(Ok(()), |name| known(at, path, kind, name, names))
+}
+
+fn known(
+    at: &Checker,
+    path: &str,
+    kind: &'static str,
+    name: &str,
+    names: &[String],
+) -> Result<(), SceneError> {
+    at.ensure(names.iter().any(|other| other == name), path, || SceneProblem::UnknownName {
+        kind,
+        name: name.to_owned(),
+        nearest: nearest(name, names).map(str::to_owned),
+        names: names.to_vec(),
+    })
+}
