@@ -12,6 +12,10 @@ use lahar::run_grains::{GrainSummary, fingerprint};
 use lahar::scene::dry::DryScene;
 use lahar::scene::{self, AnyScene};
 
+/// The rate of loss in a damped contact starts like δ^{1/4}, which the books' trapezoid resolves to about
+/// (1/steps per contact)^{5/4}: 7.5e-3 of what is lost at 50 steps.
+const BOOKS: f64 = 7.5e-3;
+
 fn lahar(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_lahar")).args(arguments).current_dir(root()).output().expect("it starts")
 }
@@ -84,8 +88,7 @@ fn a_run_writes_what_it_says_and_its_table_starts_another_run() {
     let out = folder("stacked");
     let summary = run(&root().join("scenes/grains/stacked_spheres.json"), &out, &["--until", "0.02"]);
     assert!(summary.stopped.is_none() && summary.ended == "end_time", "{summary:?}");
-    // Books in 0.02 s of free settling: second order in the step, far below a thousandth.
-    assert!(summary.energy_residual.abs() < 1e-3, "{}", summary.energy_residual);
+    assert!(summary.energy_residual.abs() < BOOKS, "{}", summary.energy_residual);
     for file in
         ["grains.pvd", "contacts.pvd", "grains_000000.vtp", "plots/grains.svg", "plots/series_energy.svg"]
     {
@@ -218,7 +221,7 @@ fn awkward_but_sound_scenes_run() {
         let path = out.join("scene.json");
         std::fs::write(&path, text).expect("a written scene");
         let summary = run(&path, &out, &[]);
-        assert!(summary.energy_residual.abs() < 1e-3, "{name}: {}", summary.energy_residual);
+        assert!(summary.energy_residual.abs() < BOOKS, "{name}: {}", summary.energy_residual);
         assert_eq!(summary.ended, if name == "gone" { "empty" } else { "end_time" }, "{name}");
     }
 }
