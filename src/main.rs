@@ -158,7 +158,7 @@ impl Failure {
             Self::Run(RunError::Start(_)) => BAD_INPUT,
             Self::Run(RunError::Stopped(_) | RunError::Grains(_)) => STOPPED,
             Self::Run(RunError::Threads(_) | RunError::Folder { .. } | RunError::Output(_)) => IO,
-            Self::Bench(BenchError::Stopped { .. }) => STOPPED,
+            Self::Bench(BenchError::Stopped { .. } | BenchError::Grains { .. }) => STOPPED,
             Self::Bench(BenchError::Threads(_)) => IO,
             Self::Bench(_) => BAD_INPUT,
             Self::Stale(_) => 1,

@@ -35,6 +35,14 @@ pub enum BenchError {
         /// Why.
         source: StartError,
     },
+    /// Grains refused or stopped.
+    #[error("`{case}`: {source}")]
+    Grains {
+        /// The case.
+        case: String,
+        /// Why.
+        source: crate::dem::DemError,
+    },
     /// A guard stopped one of the flows.
     #[error("`{case}` was stopped at step {step} by the guard: the measurement means nothing")]
     Stopped {

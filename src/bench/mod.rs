@@ -10,6 +10,7 @@ pub mod bandwidth;
 pub mod cases;
 mod error;
 mod flows;
+mod grains;
 mod machine;
 mod measure;
 mod statistics;
@@ -19,6 +20,7 @@ mod yielded;
 use serde::Serialize;
 
 pub use error::BenchError;
+pub use grains::GrainSpeed;
 pub use machine::Machine;
 pub use measure::{CaseSpeed, Ratio};
 pub use statistics::Spread;
@@ -100,6 +102,8 @@ pub struct Report {
     pub ceilings: Vec<Ceiling>,
     /// Speeds of the cases.
     pub cases: Vec<CaseSpeed>,
+    /// Speeds of dry grains.
+    pub grains: Vec<GrainSpeed>,
     /// Ratios of them.
     pub ratios: Vec<Ratio>,
     /// What was left out, and why.
@@ -141,7 +145,7 @@ pub fn names() -> Vec<String> {
     let groups = GROUPS.iter();
     let names =
         groups.flat_map(|group| std::iter::once(group.name).chain(group.cases.iter().map(|case| case.name)));
-    std::iter::once("bandwidth").chain(names).map(str::to_owned).collect()
+    std::iter::once("bandwidth").chain(names).chain(grains::names()).map(str::to_owned).collect()
 }
 
 /// Measures. `say` is told what is going on, one line at a time.
@@ -156,6 +160,8 @@ pub fn run(options: &Options, say: &mut dyn FnMut(&str)) -> Result<Report, Bench
         return Err(BenchError::UnknownName { found: only.clone(), names: names() });
     }
     let machine = Machine::this();
+    // Grains are not judged by the bandwidth.
+    let only_grains = options.only.as_deref().is_some_and(|only| grains::names().contains(&only));
     let array_bytes = options.array_bytes(&machine);
     let mut report = Report {
         quick: options.quick,
@@ -163,10 +169,15 @@ pub fn run(options: &Options, say: &mut dyn FnMut(&str)) -> Result<Report, Bench
         bandwidth: Vec::new(),
         ceilings: Vec::new(),
         cases: Vec::new(),
+        grains: Vec::new(),
         ratios: Vec::new(),
         left_out: Vec::new(),
         machine,
     };
+    if only_grains {
+        grains::measure(options, &mut report, say)?;
+        return Ok(report);
+    }
     measure_bandwidth(options, &mut report, say)?;
     let memory = Memory::now();
     let mut shortage = None;
@@ -178,6 +189,7 @@ pub fn run(options: &Options, say: &mut dyn FnMut(&str)) -> Result<Report, Bench
             shortage = shortage.or(measure::group(options, group, &wanted, memory, &mut report)?);
         }
     }
+    grains::measure(options, &mut report, say)?;
     if report.cases.is_empty() {
         return shortage.map_or(Ok(report), Err);
     }

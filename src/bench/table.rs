@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::cases::Quantity;
+use super::grains::GrainSpeed;
 use super::measure::{CaseSpeed, Ratio};
 use super::{Report, Spread};
 use crate::plan::memory::human;
@@ -22,9 +23,14 @@ impl fmt::Display for Report {
         if self.quick {
             writeln!(f, "--quick: cases of about a tenth of their cells, short slices, smaller arrays")?;
         }
-        bandwidth(f, self)?;
+        if !self.bandwidth.is_empty() {
+            bandwidth(f, self)?;
+        }
         if !self.cases.is_empty() {
             cases(f, &self.cases)?;
+        }
+        if !self.grains.is_empty() {
+            grains(f, &self.grains)?;
         }
         if !self.ratios.is_empty() {
             ratios(f, &self.ratios)?;
@@ -119,6 +125,30 @@ fn cases(f: &mut fmt::Formatter<'_>, cases: &[CaseSpeed]) -> fmt::Result {
         writeln!(f, "  {} on {} × {}: {}", case.name, case.backend, case.threads, passes.join(", "))?;
     }
     Ok(())
+}
+
+fn grains(f: &mut fmt::Formatter<'_>, grains: &[GrainSpeed]) -> fmt::Result {
+    writeln!(f, "\nDry grains: million grains stepped per second (median and range)")?;
+    let head = [
+        "case", "threads", "grains", "spheres", "M/s", "range", "ns", "touching", "listed", "steps", "lists",
+    ];
+    let mut rows = vec![strings(&head)];
+    for case in grains {
+        rows.push(vec![
+            case.name.to_owned(),
+            case.threads.to_string(),
+            case.grains.to_string(),
+            case.spheres.to_string(),
+            format!("{:.3}", case.million_per_second.median),
+            range(&case.million_per_second),
+            format!("{:.0}", case.ns_per_update),
+            format!("{:.2}", case.contacts_per_grain),
+            format!("{:.2}", case.listed_per_grain),
+            case.steps.to_string(),
+            case.lists.to_string(),
+        ]);
+    }
+    aligned(f, &rows, 1)
 }
 
 fn range(spread: &Spread) -> String {
