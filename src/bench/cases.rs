@@ -360,13 +360,18 @@ pub const GROUPS: [Group; 8] = [
         name: "sizes",
         about: "the Newtonian cube from 10⁵ to 3·10⁷ cells, all threads",
         cases: &[
-            case("sizes/1e5", "10⁵ cells", |s| vortices(s.pick(46, 22), newtonian())),
-            case("sizes/1e6", "10⁶ cells", |s| vortices(s.pick(100, 46), newtonian())),
-            case("sizes/1e7", "10⁷ cells", |s| vortices(s.pick(216, 100), newtonian())),
-            case("sizes/3e7", "3·10⁷ cells", |s| vortices(s.pick(311, 144), newtonian())),
+            // Whole blocks, so that only the number of cells differs; and one size that is not.
+            case("sizes/1e5", "48³ cells", |s| vortices(s.pick(48, 24), newtonian())),
+            case("sizes/1e5-odd", "46³ cells: packs at the seams are cut", |s| {
+                vortices(s.pick(46, 22), newtonian())
+            }),
+            case("sizes/1e6", "104³ cells", |s| vortices(s.pick(104, 48), newtonian())),
+            case("sizes/1e7", "216³ cells", |s| vortices(s.pick(216, 104), newtonian())),
+            case("sizes/3e7", "312³ cells", |s| vortices(s.pick(312, 144), newtonian())),
         ],
         compare: &[
             ratio("10⁵ / 10⁶ cells", Quantity::TimePerUpdate, "sizes/1e5", "sizes/1e6"),
+            ratio("46³ / 48³ cells", Quantity::TimePerUpdate, "sizes/1e5-odd", "sizes/1e5"),
             ratio("10⁷ / 10⁶ cells", Quantity::TimePerUpdate, "sizes/1e7", "sizes/1e6"),
             ratio("3·10⁷ / 10⁶ cells", Quantity::TimePerUpdate, "sizes/3e7", "sizes/1e6"),
         ],

@@ -1,6 +1,6 @@
 //! The packings that grains are timed on.
 
-use crate::dem::packing::{Lattice, Random, Region, Sizes, lattice, scatter};
+use crate::dem::packing::{Lattice, Random, Region, lattice};
 use crate::dem::{
     Clump, Grain, Material, Materials, Orientation, PairProperties, Period, Setup, Side, Surface, V3, Wall,
 };
@@ -79,19 +79,31 @@ pub(super) fn crystal(k: u32) -> Setup {
     s
 }
 
-/// Grains whose radii differ 20 times, log-normal, shaken in a box: a quarter of the volume.
+/// A dense bed of radii 20 to 1: large spheres on a touching simple cubic lattice, about `n` small ones on a touching
+/// simple cubic lattice in the gaps, pressed a little and shaken, under gravity in a box.
 pub(super) fn mixture(n: usize) -> Setup {
+    const LARGE: f64 = 20.0;
     let mut s = soft();
-    let sizes = Sizes::LogNormal { median: 1.5e-3, deviation: 1.0, least: 1e-3, largest: 20e-3 };
+    let (small, large) = (R / 5.0, LARGE * R / 5.0);
+    let cells = ((n as f64 / 3000.0).round().max(1.0)) as usize;
+    let high = V3::new(2.0 * large * cells as f64, 2.0 * large, 2.0 * large);
+    let region = Region::Box { low: V3::zeros(), high };
     let mut random = Random::new(3);
-    let radii: Vec<f64> = (0..n).map(|_| sizes.draw(&mut random)).collect();
-    let volume: f64 = radii.iter().map(|r| 4.0 / 3.0 * std::f64::consts::PI * r * r * r).sum();
-    let side = libm::cbrt(volume / 0.25).max(0.06);
-    let region = Region::Box { low: V3::zeros(), high: V3::repeat(side) };
-    s.grains = scatter(n, &sizes, 0.0, &region, 3)
-        .unwrap_or_default()
-        .into_iter()
-        .map(|p| Grain::sphere(p.radius, p.centre, 0).moving(V3::from_fn(|_, _| 0.2 * random.normal())))
-        .collect();
-    boxed(s, side, 0.0)
+    let mut shaken = |radius: f64, centre: V3| {
+        Grain::sphere(radius, centre * 0.9995, 0).moving(V3::from_fn(|_, _| 0.01 * random.normal()))
+    };
+    let stones = lattice(Lattice::SimpleCubic, large, 2.0 * large, &region).unwrap_or_default();
+    s.grains = stones.iter().map(|p| shaken(large, p.centre)).collect();
+    let sand = lattice(Lattice::SimpleCubic, small, 2.0 * small, &region).unwrap_or_default();
+    let free = |x: &V3| stones.iter().all(|p| (x - p.centre).norm() >= large + small);
+    s.grains.extend(sand.iter().filter(|p| free(&p.centre)).map(|p| shaken(small, p.centre)));
+    let surface = Surface::Box {
+        centre: 0.5 * high,
+        half: 0.5 * high,
+        orientation: Orientation::identity(),
+        side: Side::Inside,
+    };
+    s.walls = vec![Wall::fixed("box", surface, 0)];
+    s.gravity = V3::z() * -9.81;
+    s
 }
