@@ -84,7 +84,7 @@ pub enum PlanProblem {
     NoVelocityScale,
     /// Steps that cannot be counted.
     #[error(
-        "{steps:.3e} steps of {dt:.3e} s to reach {end} s\n  allowed: at most 9e15, the integers exact in 64-bit floating point\n  way out: an earlier `stop.end_time_s`"
+        "{steps:.3e} steps of {dt:.3e} s to reach {end:.3e} s\n  allowed: at most 9e15, the integers exact in 64-bit floating point\n  way out: an earlier `stop.end_time_s`"
     )]
     TooManySteps { steps: f64, dt: f64, end: f64 },
     /// End before the first step.
@@ -119,7 +119,7 @@ pub enum PlanProblem {
     GrainTimeStep { found_s: f64, pair: String, contact_s: f64, speed_m_s: f64, steps: f64, limit_s: f64 },
     /// A periodic axis too short.
     #[error(
-        "axis {axis}: found {length_m} m\n  allowed: more than {needed_m:.6} m along a periodic axis; on less a pair would touch twice\n  way out: a longer box, smaller grains, or `free_slip` faces"
+        "axis {axis}: found {length_m} m\n  allowed: more than {needed_m:.4e} m along a periodic axis; on less a pair would touch twice\n  way out: a longer box, smaller grains, or `free_slip` faces"
     )]
     GrainPeriod { axis: char, length_m: f64, needed_m: f64 },
     /// No room.
@@ -152,6 +152,16 @@ pub enum PlanProblem {
         "{grains} grains need {}\n  allowed: at most the {} that are free\n  way out: fewer or larger grains", human(*.bytes), human(*.available)
     )]
     GrainMemory { grains: u64, bytes: u64, available: u64 },
+    /// A quantity that left the range of 64-bit numbers.
+    #[error(
+        "{quantity} cannot be had: it is 0, infinite or not a number\n  allowed: magnitudes for which it is a number above 0\n  way out: check the magnitudes of radii, densities, Young's moduli, speeds and gravity"
+    )]
+    GrainScale { quantity: &'static str },
+    /// A wall that cannot be made.
+    #[error(
+        "the wall cannot be made: {what}\n  allowed: corners at different places, edges that do not cross, finite numbers\n  way out: remove corners that are given twice"
+    )]
+    BadWall { what: String },
     /// Anything else that the discrete element method refuses.
     #[error("{what}\n  allowed: what the message asks for\n  way out: change the value it names")]
     Grains { what: String },

@@ -20,6 +20,9 @@ use crate::dem::{self, DemError, Setup};
 use crate::scene::Boundary;
 use crate::scene::dry::{DryScene, IntegratorChoice};
 
+const NO_CONTACT_TIME: PlanProblem =
+    PlanProblem::GrainScale { quantity: "the duration of the shortest contact" };
+
 /// Everything a dry run needs, worked out before it starts.
 #[derive(Clone, Debug)]
 pub struct GrainPlan {
@@ -70,15 +73,28 @@ impl GrainPlan {
         numerics(scene, &mut setup);
         let speed = speed::design(scene, &setup);
         let given = scene.grains.numerics.design_speed_m_per_s;
+        if !speed.is_finite() {
+            return Err(at(
+                "grains",
+                PlanProblem::GrainScale { quantity: "the speed of the fastest impact" },
+            ));
+        }
         let Some(design) = given.or(Some(speed).filter(|&v| v > 0.0)) else {
             return Err(at("grains.numerics", PlanProblem::NoDesignSpeed));
         };
         setup.design_speed_m_s = design;
         let refused = |error: DemError| refusal(scene, &sets, error);
-        let shortest = dem::shortest_contact(&setup).map_err(refused)?;
-        let Some(shortest) = shortest else {
+        let shortest = match dem::shortest_contact(&setup) {
+            // Any step is short enough for it, so only a time that is no time is refused.
+            Err(DemError::TimeStep { .. }) => Err(at("grains", NO_CONTACT_TIME)),
+            other => other.map_err(refused),
+        };
+        let Some(shortest) = shortest? else {
             return Err(at("grains.sets", PlanProblem::NothingMoves));
         };
+        if !(shortest.seconds > 0.0 && shortest.seconds.is_finite()) {
+            return Err(at("grains", NO_CONTACT_TIME));
+        }
         let dt = scene.grains.numerics.time_step_s.unwrap_or(shortest.seconds / setup.steps_per_contact);
         setup.time_step_s = Some(dt);
         let steps = count_steps(scene, dt).map_err(|problem| at("stop.end_time_s", problem))?;

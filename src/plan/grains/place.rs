@@ -37,6 +37,11 @@ pub(super) fn place(
         };
         let clump = clump
             .map_err(|e| (format!("grains.clumps[{i}]"), PlanProblem::Grains { what: e.to_string() }))?;
+        let sound = clump.volume > 0.0 && clump.inertia.iter().all(|i| *i > 0.0 && i.is_finite());
+        if !sound {
+            let problem = PlanProblem::GrainScale { quantity: "the inertia of this clump" };
+            return Err((format!("grains.clumps[{i}].members"), problem));
+        }
         setup.clumps.push(clump);
     }
     let mut sets = Vec::new();

@@ -87,7 +87,10 @@ fn surfaces(scene: &DryScene, solid: &GrainSolid) -> Result<Vec<Surface>, (&'sta
 
 fn add(scene: &DryScene, shape: &Shape, inverted: bool, out: &mut Vec<Surface>) -> Result<(), PlanProblem> {
     let side = if inverted { Side::Inside } else { Side::Outside };
-    let broken = |error: crate::dem::DemError| PlanProblem::Grains { what: error.to_string() };
+    let broken = |error: crate::dem::DemError| {
+        let what = error.to_string().trim_start_matches("mesh: ").to_owned();
+        PlanProblem::BadWall { what }
+    };
     match shape {
         Shape::Box { min_m, max_m } => {
             let (low, high) = (V3::from(*min_m), V3::from(*max_m));
