@@ -112,6 +112,46 @@ fn a_run_writes_what_it_says_and_its_table_starts_another_run() {
     }
 }
 
+/// A drum with clumps: which files there are, with how many points and arrays.
+#[test]
+fn exact_counts_in_vtp_files() {
+    let out = folder("vtp");
+    let drum = r#"{ "name": "drum", "invert": true, "spin_rad_per_s": [0, 3, 0],
+        "shape": { "cylinder": { "point_m": [0.05, 0, 0.05], "direction": [0, 1, 0], "radius_m": 0.05 } } }"#;
+    let grains = r#""clumps": [{ "name": "t", "members": { "tetrahedron": { "edge_over_radius": 1.2 } } }],
+        "sets": [{ "name": "s", "clump": "t", "place": { "lattice": { "kind": "simple_cubic", "radius_m": 0.004,
+        "region": { "box": { "min_m": [0.03, 0.03, 0.02], "max_m": [0.07, 0.07, 0.05] } } } } }]"#;
+    let faces = r#""x_min": "open", "x_max": "open", "z_min": "no_slip", "z_max": "open""#;
+    let domain = format!(r#"{{ "size_m": [0.1, 0.1, 0.1], "boundaries": {{ {faces} }} }}"#);
+    let more = format!(
+        r#""solids": [{drum}], "gravity": {{ "magnitude_m_per_s2": 9.81, "direction": [0, 0, -1] }},"#
+    );
+    let path = out.join("drum.json");
+    std::fs::write(&path, text(&domain, grains, &more)).expect("a written scene");
+    let summary = run(&path, &out, &["--until", "0.05"]);
+    // The header says how many points there are and which arrays; `tests/output.rs` has the format itself checked.
+    let points = |name: &str| {
+        let bytes = std::fs::read(out.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let text = String::from_utf8_lossy(&bytes);
+        let between = |from: &str, to: &str| {
+            let rest = text.split_once(from).unwrap_or_else(|| panic!("{name}: no {from}")).1;
+            rest.split_once(to).unwrap_or_else(|| panic!("{name}: no {to}")).0.to_owned()
+        };
+        let arrays = |part: &str| {
+            let part = between(&format!("<{part}"), &format!("</{part}>"));
+            part.matches("<DataArray").count()
+        };
+        let count: usize = between("NumberOfPoints=\"", "\"").parse().expect("a number");
+        (count, arrays("PointData"), arrays("CellData"))
+    };
+    assert_eq!(points("grains_000001.vtp"), (summary.grains, 9, 0));
+    assert_eq!(points("spheres_000001.vtp"), (4 * summary.grains, 4, 0));
+    assert_eq!(points("contacts_000001.vtp").2, 3);
+    // Two rings of 65 points; a drum that turns about its axis is written once.
+    assert_eq!(points("walls_000000.vtp"), (130, 0, 1));
+    assert!(!out.join("walls_000001.vtp").exists());
+}
+
 /// A scene in one line of text.
 fn text(domain: &str, grains: &str, more: &str) -> String {
     format!(

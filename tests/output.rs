@@ -75,6 +75,43 @@ fn vti_states_its_time() {
     assert!(text.contains("Name=\"TimeValue\"") && text.contains(">0.75</DataArray>"), "{text}");
 }
 
+/// Lines with a value each, and points with numbers: as above, on numbers whose bytes vtkio can read.
+#[test]
+fn exact_lines_and_points_read_back_by_vtkio() {
+    use lahar::output::vtp::{Cells, PolyData};
+    let points = vec![[0.0, 0.5, 1.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
+    let path = folder("lines.vtp");
+    let lines = PolyData::new(&points, Cells::Lines(&[[0, 1], [2, 1]]), 0.5);
+    lines.at_cells("normal_force_n", &[[2.0], [0.5]]).write(&path).unwrap();
+    let piece = |path: &std::path::Path| {
+        let DataSet::PolyData { pieces, .. } = vtkio::Vtk::import(path).unwrap().data else {
+            panic!("not PolyData")
+        };
+        let Piece::Inline(piece) = pieces.into_iter().next().unwrap() else { panic!("no inline piece") };
+        piece
+    };
+    let read = piece(&path);
+    let Some(vtkio::model::VertexNumbers::XML { connectivity, offsets }) = &read.lines else {
+        panic!("no lines")
+    };
+    assert_eq!((connectivity.as_slice(), offsets.as_slice()), (&[0, 1, 2, 1][..], &[2, 4][..]));
+    assert!(matches!(read.data.cell.first(), Some(Attribute::DataArray(a)) if a.name == "normal_force_n"));
+    let path = folder("points.vtp");
+    let dots = PolyData::new(&points, Cells::Points, 0.5).count_at_points("number", [7, 8, 9].into_iter());
+    dots.write(&path).unwrap();
+    let read = piece(&path);
+    let Some(vtkio::model::VertexNumbers::XML { connectivity, .. }) = &read.verts else {
+        panic!("no points")
+    };
+    assert_eq!(connectivity.as_slice(), &[0, 1, 2]);
+    let Some(Attribute::DataArray(array)) = read.data.point.first() else { panic!("no numbers") };
+    assert!(matches!(&array.data, IOBuffer::I64(v) if v[..] == [7, 8, 9]), "{:?}", array.data);
+    // An array of the wrong length is refused before anything is written.
+    let path = folder("wrong.vtp");
+    let wrong = PolyData::new(&points, Cells::Points, 0.5).at_points("radius_m", &[[1.0]]);
+    assert!(wrong.write(&path).is_err() && !path.exists());
+}
+
 /// Positions of a mesh whose bytes are all far from `<` and `&` (see [`noise`]): whole numbers and halves.
 #[test]
 fn exact_vtp_read_back_by_vtkio() {

@@ -5,6 +5,7 @@ mod pictures;
 mod probes;
 mod stop;
 mod summary;
+mod walls;
 mod writer;
 
 use std::path::PathBuf;

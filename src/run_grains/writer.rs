@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::Grains;
 use super::probes::{Sampler, columns, probes};
+use super::{Grains, walls};
 use crate::output::OutputError;
 use crate::output::csv::Series;
 use crate::output::pvd::Collection;
@@ -20,7 +20,7 @@ pub(super) struct Writer<'a> {
     pub(super) series: Series,
     /// Columns of each probe, for the plots.
     pub(super) groups: Vec<(String, usize)>,
-    collections: [(&'static str, Collection); 3],
+    collections: [(&'static str, Collection); 4],
     written: usize,
 }
 
@@ -39,7 +39,7 @@ impl<'a> Writer<'a> {
             scene,
             series: Series::new(&header),
             groups: probes.iter().map(|probe| (probe.name.clone(), columns(probe).len())).collect(),
-            collections: ["grains", "spheres", "contacts"].map(|name| (name, Collection::default())),
+            collections: ["grains", "spheres", "contacts", "walls"].map(|name| (name, Collection::default())),
             written: 0,
         })
     }
@@ -75,18 +75,18 @@ impl<'a> Writer<'a> {
     }
 
     fn snapshot(&mut self, grains: &Grains) -> Result<(), OutputError> {
-        let clumps = self.plan.numbers.clumps > 0;
-        for kind in 0..3 {
-            // Spheres of clumps only where there are clumps.
-            if kind == 1 && !clumps {
-                continue;
-            }
+        let (pieces, faces) = (&self.plan.setup.walls, self.plan.walls.faces.len());
+        // Spheres of clumps only where there are clumps; walls once, unless they move.
+        let moving = self.written == 0 || pieces.iter().any(crate::dem::Wall::shifts);
+        let wanted = [true, self.plan.numbers.clumps > 0, true, moving && walls::any(pieces, faces)];
+        for kind in (0..4).filter(|&kind| wanted[kind]) {
             let name = format!("{}_{:06}.vtp", self.collections[kind].0, self.written);
             let path = self.path(&name);
             match kind {
                 0 => self.bodies(grains, &path)?,
                 1 => self.spheres(grains, &path)?,
-                _ => contacts(grains, &path)?,
+                2 => contacts(grains, &path)?,
+                _ => walls::write(&path, &grains.dem, faces, self.scene.domain.size_m)?,
             }
             let (stem, collection) = &mut self.collections[kind];
             collection.push(grains.dem.time(), &name);
