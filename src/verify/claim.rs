@@ -209,6 +209,12 @@ pub enum VerifyError {
     /// The run did not become steady.
     #[error("not steady after {steps} steps: residual {residual:.2e} > {wanted:.0e}")]
     NotSteady { steps: u64, residual: f64, wanted: f64 },
+    /// Grains were refused, or a guard stopped them.
+    #[error("grains: {0}")]
+    Grains(#[from] crate::dem::DemError),
+    /// A value computed elsewhere is missing from the table.
+    #[error(transparent)]
+    Reference(#[from] super::reference_values::ReferenceError),
 }
 
 impl From<Stopped> for VerifyError {
