@@ -212,9 +212,6 @@ pub enum VerifyError {
     /// Grains were refused, or a guard stopped them.
     #[error("grains: {0}")]
     Grains(#[from] crate::dem::DemError),
-    /// A value computed elsewhere is missing from the table.
-    #[error(transparent)]
-    Reference(#[from] super::reference_values::ReferenceError),
 }
 
 impl From<Stopped> for VerifyError {

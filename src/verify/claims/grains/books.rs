@@ -2,9 +2,7 @@
 
 use super::support::{RADIUS, setup};
 use crate::dem::packing::{Lattice, Random, Region, Sizes, lattice, scatter};
-use crate::dem::{
-    Clump, Dem, Grain, Integrator, Mutant, NormalLaw, PairProperties, Period, Setup, V3,
-};
+use crate::dem::{Clump, Dem, Grain, Integrator, Mutant, NormalLaw, PairProperties, Period, Setup, V3};
 use crate::solver::run::Backend;
 use crate::verify::claim::{
     Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
@@ -142,7 +140,11 @@ pub const THREADS: Claim = Claim {
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "threads", short: &[2.0], full: &[2.0, 3.0, 8.0] },
     order: None,
-    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "Forces are summed in the order of the partners' numbers: exact" },
+    tolerance: Tolerance {
+        value: 0.0,
+        at: Rung::Every,
+        because: "Forces are summed in the order of the partners' numbers: exact",
+    },
     kind: Kind::Verification,
     measure: threads,
 };
@@ -161,7 +163,8 @@ fn threads(_: &dyn Backend, count: f64) -> Result<Sample, VerifyError> {
     let (one, many) = (on(1)?, on(count as usize)?);
     let (a, b) = (one.bodies(), many.bodies());
     let differs = |i: usize| {
-        let state = |x: &crate::dem::Bodies| [x.position[i], x.velocity[i], x.spin[i], x.force[i], x.torque[i]];
+        let state =
+            |x: &crate::dem::Bodies| [x.position[i], x.velocity[i], x.spin[i], x.force[i], x.torque[i]];
         let bits = |x: &crate::dem::Bodies| state(x).map(|v| [v.x, v.y, v.z].map(f64::to_bits));
         bits(a) != bits(b)
     };

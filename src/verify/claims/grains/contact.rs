@@ -52,7 +52,10 @@ pub const CARRIED: Claim = Claim {
     tags: &["D2", "000 Sec 2.1"],
     measures: "Tangential force after the pair has tilted and twisted rigidly by 2 rad, turned back, against the force before; over \
                its size",
-    reference: Reference { source: "The same force: a rigid motion changes nothing in a material (objectivity)", uncertainty: 0.0 },
+    reference: Reference {
+        source: "The same force: a rigid motion changes nothing in a material (objectivity)",
+        uncertainty: 0.0,
+    },
     metric: Metric::Absolute,
     ladder: Ladder {
         parameter: "n (steps)",

@@ -1,14 +1,13 @@
 //! Hard cases: sizes, densities, edges and corners, far too fast impacts, no friction.
 
 use super::support::{
-    DENSITY, G, POISSON, RADIUS, elastic, floor, head_on, mass, material, plane, rest_on_floor, setup, wall, worst,
+    DENSITY, G, POISSON, RADIUS, elastic, floor, head_on, mass, material, plane, rest_on_floor, setup, wall,
+    worst,
 };
 use crate::dem::walls::Mesh;
 use crate::dem::{Dem, DemError, Grain, Integrator, Material, PairProperties, Surface, V3};
 use crate::solver::run::Backend;
-use crate::verify::claim::{
-    Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError,
-};
+use crate::verify::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::verify::exact::grains::collision::{elastic_speeds, hertz_stiffness, hertz_time};
 use crate::verify::exact::grains::rolling::{arm_ratio, incline_acceleration};
 
@@ -82,8 +81,7 @@ pub const DENSITIES: Claim = Claim {
 /// A floor of 80 x 80 mm in triangles of 2 mm; the line y = 0 runs along edges and through corners.
 fn triangles() -> Result<Surface, VerifyError> {
     let n = 40u32;
-    let corner =
-        |k: u32| V3::new(f64::from(k % (n + 1)) * 2e-3, f64::from(k / (n + 1)) * 2e-3 - 0.04, 0.0);
+    let corner = |k: u32| V3::new(f64::from(k % (n + 1)) * 2e-3, f64::from(k / (n + 1)) * 2e-3 - 0.04, 0.0);
     let corners: Vec<V3> = (0..(n + 1) * (n + 1)).map(corner).collect();
     let faces: Vec<[u32; 3]> = (0..n * n)
         .flat_map(|k| {
@@ -151,7 +149,9 @@ fn mesh_rolling(_: &dyn Backend, y_mm: f64) -> Result<Sample, VerifyError> {
 /// A cube of half-width 1 cm, outward faces.
 fn cube() -> Result<Surface, VerifyError> {
     let corners: Vec<V3> = (0..8)
-        .map(|k| V3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)) * 0.02 - V3::repeat(0.01))
+        .map(|k| {
+            V3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)) * 0.02 - V3::repeat(0.01)
+        })
         .collect();
     let faces = [
         [0, 2, 3],
@@ -254,7 +254,8 @@ fn guard(_: &dyn Backend, factor: f64) -> Result<Sample, VerifyError> {
             let mut s = head_on(setup(7e6, elastic()), (RADIUS, RADIUS), factor * design, 0.0);
             if with_wall {
                 s.walls = vec![floor()];
-                s.grains = vec![Grain::sphere(RADIUS, V3::z() * RADIUS, 0).moving(V3::z() * (-factor * design))];
+                s.grains =
+                    vec![Grain::sphere(RADIUS, V3::z() * RADIUS, 0).moving(V3::z() * (-factor * design))];
             }
             (s.design_speed_m_s, s.integrator) = (design, integrator);
             let named = if with_wall { "grain 0 and wall `floor`" } else { "grains 0 and 1" };
@@ -284,7 +285,11 @@ pub const NO_FRICTION: Claim = Claim {
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "n (steps)", short: &[2e4], full: &[2e4, 2e5] },
     order: None,
-    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "The tangential force is not computed at all: exact" },
+    tolerance: Tolerance {
+        value: 0.0,
+        at: Rung::Every,
+        because: "The tangential force is not computed at all: exact",
+    },
     kind: Kind::Verification,
     measure: |_, steps| {
         let mut s = setup(7e6, elastic());
@@ -301,11 +306,8 @@ pub const NO_FRICTION: Claim = Claim {
             before = now;
         }
         let b = d.bodies();
-        let change = worst(&[
-            (b.spin[0] - w).norm() / w.norm(),
-            b.velocity[0].x - v.x,
-            b.velocity[0].y - v.y,
-        ]);
+        let change =
+            worst(&[(b.spin[0] - w).norm() / w.norm(), b.velocity[0].x - v.x, b.velocity[0].y - v.y]);
         Ok(Sample::absolute(steps, change, 0.0).with("bounces", f64::from(bounces)))
     },
 };

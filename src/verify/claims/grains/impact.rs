@@ -1,8 +1,6 @@
 //! Oblique impacts, chains of balls, and balls that lean on each other.
 
-use super::support::{
-    DENSITY, G, POISSON, RADIUS, elastic, floor, mass, plane, setup, worst,
-};
+use super::support::{G, POISSON, RADIUS, elastic, floor, mass, plane, setup, worst};
 use crate::dem::{Dem, Grain, Mutant, NormalLaw, PairProperties, V3};
 use crate::solver::run::Backend;
 use crate::verify::claim::{
@@ -12,7 +10,13 @@ use crate::verify::exact::grains::collision::{hertz_overlap, hertz_stiffness};
 use crate::verify::exact::grains::rolling::{oblique_slip, oblique_stick};
 
 /// Speed and surface speed of rotation after an impact of a sphere without spin on the floor.
-fn strike(young: f64, pair: PairProperties, v: (f64, f64), steps: f64, wrong: Mutant) -> Result<[f64; 3], VerifyError> {
+fn strike(
+    young: f64,
+    pair: PairProperties,
+    v: (f64, f64),
+    steps: f64,
+    wrong: Mutant,
+) -> Result<[f64; 3], VerifyError> {
     let mut s = setup(young, pair);
     s.walls = vec![floor()];
     s.steps_per_contact = steps;
@@ -80,7 +84,11 @@ pub const STICK: Claim = Claim {
         uncertainty: 0.0,
     },
     metric: Metric::Absolute,
-    ladder: Ladder { parameter: "k (N/m)", short: &[1e6, 4e6, 1.6e7], full: &[2.5e5, 1e6, 4e6, 1.6e7, 6.4e7] },
+    ladder: Ladder {
+        parameter: "k (N/m)",
+        short: &[1e6, 4e6, 1.6e7],
+        full: &[2.5e5, 1e6, 4e6, 1.6e7, 6.4e7],
+    },
     order: Some(OrderBand { expected: 0.5, band: 0.1, at_least: false }),
     tolerance: Tolerance {
         value: 2e-2,
@@ -134,7 +142,10 @@ pub const CRADLE: Claim = Claim {
     tags: &["D1", "D6"],
     measures: "Largest difference of any ball's speed from what it should be, over the first ball's; glass balls 20 um apart, \
                200 steps per contact. Further column: last ball of a row that touches",
-    reference: Reference { source: "Equal balls exchange velocities in elastic collisions one after the other", uncertainty: 0.0 },
+    reference: Reference {
+        source: "Equal balls exchange velocities in elastic collisions one after the other",
+        uncertainty: 0.0,
+    },
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "n (balls)", short: &[3.0, 5.0, 9.0], full: &[2.0, 3.0, 5.0, 9.0, 17.0] },
     order: None,
@@ -173,11 +184,8 @@ fn corner(young: f64, friction: f64, steps: u64) -> Result<Corner, VerifyError> 
     let normal = NormalLaw::Tsuji { restitution: 0.3 };
     let mut s = setup(young, PairProperties { normal, friction, ..PairProperties::default() });
     let r = RADIUS;
-    s.walls = vec![
-        floor(),
-        plane("left", V3::zeros(), V3::x()),
-        plane("right", V3::x() * (3.5 * r), -V3::x()),
-    ];
+    s.walls =
+        vec![floor(), plane("left", V3::zeros(), V3::x()), plane("right", V3::x() * (3.5 * r), -V3::x())];
     s.gravity = V3::z() * -G;
     // The drop is a hundredth of a radius.
     s.design_speed_m_s = 0.1;
@@ -252,7 +260,6 @@ pub const BALANCE: Claim = Claim {
     },
     kind: Kind::Verification,
     measure: |_, mu| {
-        debug_assert!(DENSITY > 0.0);
         let c = corner(7e7, mu, 2 * CORNER_STEPS)?;
         let error = worst(&[c.rest[0], c.rest[1], c.carried - 1.0, c.rest[2]]);
         Ok(Sample::absolute(mu, error, 0.0)

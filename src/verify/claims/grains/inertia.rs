@@ -49,7 +49,10 @@ pub const TWO: Claim = Claim {
     title: "A clump of two overlapping spheres has the volume, centre and inertia of their union",
     tags: &["D4", "000 Sec 2.1"],
     measures: "Volume, centre and principal moments, relative, the worst; radii 1 and 1, 1 and 0.7, on an oblique line",
-    reference: Reference { source: "Two spheres without caps, integrated slice by slice (closed form)", uncertainty: 0.0 },
+    reference: Reference {
+        source: "Two spheres without caps, integrated slice by slice (closed form)",
+        uncertainty: 0.0,
+    },
     metric: Metric::Relative,
     ladder: Ladder {
         parameter: "d (distance of centres)",
@@ -73,7 +76,10 @@ pub const APART: Claim = Claim {
     title: "Spheres that do not overlap have exactly the sum of their moments",
     tags: &["D4", "000 Sec 2.1"],
     measures: "Volume and principal moments of a touching tetrahedron of unit spheres and of pairs apart, relative, the worst",
-    reference: Reference { source: "Parallel-axis theorem; four spheres at the corners: I = 4 m (2/5 + (2/3) (3/8) edge^2)", uncertainty: 0.0 },
+    reference: Reference {
+        source: "Parallel-axis theorem; four spheres at the corners: I = 4 m (2/5 + (2/3) (3/8) edge^2)",
+        uncertainty: 0.0,
+    },
     metric: Metric::Relative,
     ladder: Ladder { parameter: "d (distance of centres)", short: &[2.0, 3.0], full: &[2.0, 2.5, 3.0, 10.0] },
     order: None,

@@ -73,13 +73,3 @@ pub const REVERSED_BOOKS: Mutant = Mutant {
     rung: Some(100.0),
     subject: Subject::Measure(|_, n| books::books(n, Integrator::Verlet, Wrong::ReversedProduct)),
 };
-
-/// Spring not turned, trough.
-pub const NOT_ROTATED_PENDULUM: Mutant = Mutant {
-    id: "spring-not-rotated-trough",
-    erratum: "DESIGN [D2]",
-    description: "The same, where the contact tilts through a trough.",
-    caught_by: "rolling-pendulum",
-    rung: Some(7e8),
-    subject: Subject::Measure(|_, young| rolling::pendulum(young, Wrong::SpringNotRotated)),
-};

@@ -43,8 +43,11 @@ fn drift(clump: Clump, integrator: Integrator, steps: u64) -> Result<[f64; 3], V
     for _ in 0..100 {
         d.step(steps / 100)?;
         let (l, e) = momentum_and_energy(&d);
-        let now =
-            [(l - l0).norm() / l0.norm(), (e / e0 - 1.0).abs(), (d.bodies().orientation[0].norm() - 1.0).abs()];
+        let now = [
+            (l - l0).norm() / l0.norm(),
+            (e / e0 - 1.0).abs(),
+            (d.bodies().orientation[0].norm() - 1.0).abs(),
+        ];
         worst = [0, 1, 2].map(|k| worst[k].max(now[k]));
     }
     Ok(worst)
@@ -99,7 +102,9 @@ fn flip_period(steps_per_radian: f64) -> Result<(f64, f64), VerifyError> {
     }
     match times.get(20) {
         Some(last) => Ok(((last - times[0]) / 10.0, exact)),
-        None => Err(VerifyError::Numerics { what: "flips", detail: format!("{} instead of 21", times.len()) }),
+        None => {
+            Err(VerifyError::Numerics { what: "flips", detail: format!("{} instead of 21", times.len()) })
+        }
     }
 }
 
@@ -109,7 +114,10 @@ pub const FLIP: Claim = Claim {
     title: "An asymmetric clump tumbles about its intermediate axis with the period of the elliptic integral",
     tags: &["D4", "ERRATA 33", "HARD_CASES H17"],
     measures: "Period of the spin in the clump's frame, from twenty flips; spin 100 rad/s with 1 % about the other axes",
-    reference: Reference { source: "T = 4 K(m)/lambda, Landau & Lifshitz, Mechanics, section 37", uncertainty: 0.0 },
+    reference: Reference {
+        source: "T = 4 K(m)/lambda, Landau & Lifshitz, Mechanics, section 37",
+        uncertainty: 0.0,
+    },
     metric: Metric::Relative,
     ladder: Ladder {
         parameter: "N (steps per radian)",

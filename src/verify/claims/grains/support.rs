@@ -51,11 +51,8 @@ pub(super) fn mass(radius: f64) -> f64 {
 
 /// Overlap at which a plane carries a sphere, m: m g = k δ^{3/2}.
 pub(super) fn resting_overlap(young: f64, radius: f64, weight: f64) -> f64 {
-    let stiffness = crate::verify::exact::grains::collision::hertz_stiffness(
-        young,
-        POISSON,
-        (radius, f64::INFINITY),
-    );
+    let stiffness =
+        crate::verify::exact::grains::collision::hertz_stiffness(young, POISSON, (radius, f64::INFINITY));
     libm::pow(weight / stiffness, 2.0 / 3.0)
 }
 

@@ -3,6 +3,7 @@
 //! Two conventions of restitution are in use. With the force cut off below zero the contact ends when the force
 //! would begin to attract; in textbooks it ends at zero overlap, attraction included. [`Restitution`] has both.
 
+use super::V3;
 use core::f64::consts::PI;
 
 /// Restitution under the two conventions.
@@ -89,19 +90,25 @@ pub fn oscillator(b: f64) -> Restitution {
 /// Brilliantov, Spahn, Hertzsch & Pöschel 1996, Phys. Rev. E 53, 5382; Schwager & Pöschel 2008, Phys. Rev. E 78,
 /// 051304 (the force cut off).
 pub fn visco_elastic(a: f64) -> Restitution {
+    visco_elastic_collision(a).0
+}
+
+/// As [`visco_elastic`], with the time, in units of (m/k)^{2/5} v^{−1/5}, from first touch until the overlap is zero
+/// again under the first convention (free flight once the force is zero).
+pub fn visco_elastic_collision(a: f64) -> (Restitution, f64) {
     /// Step in σ.
     const STEP: f64 = 1e-3;
-    let rate = |[w, v]: [f64; 2]| [v, -w * w * (2.0 * w * w + 3.0 * a * v)];
-    let step = |y: [f64; 2], h: f64| {
-        let along = |k: [f64; 2], s: f64| [y[0] + s * k[0], y[1] + s * k[1]];
+    let rate = |[w, v, _]: V3| [v, -w * w * (2.0 * w * w + 3.0 * a * v), 2.0 * w];
+    let step = |y: V3, h: f64| {
+        let along = |k: V3, s: f64| [0, 1, 2].map(|i| y[i] + s * k[i]);
         let k1 = rate(y);
         let k2 = rate(along(k1, 0.5 * h));
         let k3 = rate(along(k2, 0.5 * h));
         let k4 = rate(along(k3, h));
-        [0, 1].map(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
+        [0, 1, 2].map(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
     };
     // The place inside a step where `sign` turns negative, by bisection.
-    let locate = |y: [f64; 2], sign: &dyn Fn([f64; 2]) -> f64| {
+    let locate = |y: V3, sign: &dyn Fn(V3) -> f64| {
         let (mut low, mut high) = (0.0, STEP);
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
@@ -109,18 +116,20 @@ pub fn visco_elastic(a: f64) -> Restitution {
         }
         step(y, low)
     };
-    let force = |[w, v]: [f64; 2]| 2.0 * w * w + 3.0 * a * v;
-    let overlap = |[w, _]: [f64; 2]| w;
-    let mut y = step([0.0, 1.0], STEP);
+    let force = |[w, v, _]: V3| 2.0 * w * w + 3.0 * a * v;
+    let overlap = |[w, _, _]: V3| w;
+    let mut y = step([0.0, 1.0, 0.0], STEP);
     let mut cut_off = None;
     loop {
         let next = step(y, STEP);
         if cut_off.is_none() && next[1] < 0.0 && force(next) <= 0.0 {
-            cut_off = Some(-locate(y, &force)[1]);
+            let [w, v, t] = locate(y, &force);
+            cut_off = Some((-v, t - w * w / v));
         }
         if overlap(next) <= 0.0 {
-            let textbook = -locate(y, &overlap)[1];
-            return Restitution { cut_off: cut_off.unwrap_or(textbook), textbook };
+            let [_, v, t] = locate(y, &overlap);
+            let (e, duration) = cut_off.unwrap_or((-v, t));
+            return (Restitution { cut_off: e, textbook: -v }, duration);
         }
         y = next;
     }
@@ -170,7 +179,9 @@ mod tests {
 
     #[test]
     fn reference_restitution() {
-        for (name, a) in [("restitution_viscoelastic_F0_A0.05", 0.05), ("restitution_viscoelastic_F0_A0.2", 0.2)] {
+        for (name, a) in
+            [("restitution_viscoelastic_F0_A0.05", 0.05), ("restitution_viscoelastic_F0_A0.2", 0.2)]
+        {
             let (entry, e) = (find(name, &[]).unwrap(), visco_elastic(a));
             assert!((e.cut_off - entry.field("e_F0").unwrap()).abs() < 2.0 * entry.tolerance(), "{e:?}");
             assert!((e.textbook - entry.field("e_x0").unwrap()).abs() < 2.0 * entry.tolerance(), "{e:?}");
@@ -182,6 +193,15 @@ mod tests {
         }
     }
 
+    /// Without damping the duration is Hertz's.
+    #[test]
+    fn limit_duration_without_damping() {
+        let (e, duration) = visco_elastic_collision(0.0);
+        assert!(
+            (e.cut_off - 1.0).abs() < 1e-12 && (duration / hertz_time(1.0, 1.0, 1.0) - 1.0).abs() < 1e-12
+        );
+    }
+
     /// Weak damping: e = 1 − C₁ (3a/2) …, C₁ = 1.15344 (Schwager & Pöschel); quadratic term left out.
     #[test]
     fn limit_weak_damping() {
@@ -190,6 +210,8 @@ mod tests {
         assert!((slope / 1.15344 - 1.0).abs() < 5e-4, "{slope}");
         let close = |b: f64| oscillator(b).cut_off;
         // Continuous through critical damping.
-        assert!((close(1.0 - 1e-7) - close(1.0)).abs() < 1e-6 && (close(1.0 + 1e-7) - close(1.0)).abs() < 1e-6);
+        assert!(
+            (close(1.0 - 1e-7) - close(1.0)).abs() < 1e-6 && (close(1.0 + 1e-7) - close(1.0)).abs() < 1e-6
+        );
     }
 }
