@@ -86,7 +86,7 @@ pub const VISCO_ELASTIC: Claim = Claim {
     },
     metric: Metric::Absolute,
     ladder: Ladder {
-        parameter: "a = A (k/m)^(2/5) v^(1/5)",
+        parameter: "a (damping A (k/m)^0.4 v^0.2)",
         short: &[0.01, 0.05, 0.11, 0.2, 0.5],
         full: &[0.003, 0.01, 0.03, 0.05, 0.08, 0.11, 0.15, 0.2, 0.3, 0.5, 0.7],
     },
@@ -246,10 +246,10 @@ pub const TSUJI_SPEED: Claim = Claim {
     },
     order: None,
     tolerance: Tolerance {
-        value: 4e-10,
+        value: 2e-11,
         at: Rung::Every,
         because: "Steps scale with the contact, so only rounding differs: the overlap (4e-6 m at 0.01 m/s) is a difference of \
-                  lengths of 1e-2 m, 1.7e-18/4e-6 = 4e-13 in each of up to 1000 steps",
+                  lengths of 1e-2 m, 1.7e-18/4e-6 = 4e-13 in each of up to 1000 steps, at random: 1.3e-11",
     },
     kind: Kind::Verification,
     measure: tsuji_speed,
