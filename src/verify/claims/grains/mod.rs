@@ -56,6 +56,7 @@ pub static STUDY: Study = Study {
         rolling::THRESHOLD,
         rolling::TURNTABLE,
         rolling::PENDULUM,
+        rolling::RESISTANCE,
         impact::SLIP,
         impact::STICK,
         impact::CRADLE,

@@ -7,8 +7,8 @@ use crate::verify::claim::{
     Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
 };
 use crate::verify::exact::grains::rolling::{
-    arm_ratio, incline_acceleration, rolling_pendulum, rolling_speed, rolling_time, slip_slope,
-    turntable_rate,
+    arm_ratio, incline_acceleration, rolling_deceleration, rolling_pendulum, rolling_speed, rolling_time,
+    slip_slope, turntable_rate,
 };
 use crate::verify::reference_values::find;
 
@@ -352,3 +352,49 @@ pub const PENDULUM: Claim = Claim {
     kind: Kind::Verification,
     measure: |_, young| pendulum(young, Mutant::None),
 };
+
+/// Slowing down by rolling friction.
+pub const RESISTANCE: Claim = Claim {
+    id: "rolling-resistance",
+    title: "Rolling friction slows a sphere down as its torque demands, and it stops for good",
+    tags: &["D2"],
+    measures: "Deceleration of a sphere rolling at 0.2 m/s, E = 7 MPa; further columns: speed over 0.2 m/s after it should have \
+               stopped",
+    reference: Reference {
+        source: "mu_r g (r/arm) q/(1 + q), q = (5/2)(arm/r)^2, arm = r - delta; (5/7) mu_r g when rigid",
+        uncertainty: 0.0,
+    },
+    metric: Metric::Relative,
+    ladder: Ladder { parameter: "mu_r", short: &[0.02, 0.1, 0.3], full: &[0.02, 0.05, 0.1, 0.2, 0.3] },
+    order: None,
+    tolerance: Tolerance {
+        value: 2e-12,
+        at: Rung::Every,
+        because: "Constant forces after the springs have found their elongation: rounding of 1e-16 in each of 1e4 steps, 1e-12, and as \
+                  much for what is left of the damped oscillation",
+    },
+    kind: Kind::Verification,
+    measure: resistance,
+};
+
+fn resistance(_: &dyn Backend, rolling_friction: f64) -> Result<Sample, VerifyError> {
+    let (young, v0) = (7e6, 0.2);
+    let mut s = setup(young, PairProperties { rolling_friction, ..sticky(0.8) });
+    let arm = rest_on_floor(&mut s, young, V3::z() * -G);
+    s.design_speed_m_s = 0.1;
+    s.grains[0].velocity = V3::x() * v0;
+    s.grains[0].spin = V3::y() * (v0 / (arm * RADIUS));
+    let exact = rolling_deceleration(arm_ratio(arm), arm, rolling_friction, G);
+    let stop = v0 / exact;
+    let mut d = Dem::new(&s)?;
+    let until = |d: &mut Dem, t: f64| -> Result<(f64, f64), VerifyError> {
+        while d.time() < t {
+            d.step(1)?;
+        }
+        Ok((d.bodies().velocity[0].x, d.time()))
+    };
+    let (v, t) = until(&mut d, 0.5 * stop)?;
+    let (v1, t1) = until(&mut d, 0.9 * stop)?;
+    let (rest, _) = until(&mut d, stop + 0.5)?;
+    Ok(Sample::relative(rolling_friction, (v - v1) / (t1 - t), exact).with("speed left / first", rest / v0))
+}

@@ -35,6 +35,12 @@ pub fn incline_acceleration(q: f64, mu: f64, g: f64, theta: f64) -> f64 {
     if sin <= slip_slope(q, mu) * cos { rolling_speed(q) * g * sin } else { g * (sin - mu * cos) }
 }
 
+/// Deceleration (m/s²) of a sphere that rolls on a level floor against the torque μ_r r m g:
+/// μ_r g (r/arm) q/(1 + q); (5/7) μ_r g when rigid.
+pub fn rolling_deceleration(q: f64, arm_over_radius: f64, rolling_friction: f64, g: f64) -> f64 {
+    rolling_friction * g / arm_over_radius * rolling_speed(q)
+}
+
 /// Rate at which a sphere's path circles on a turntable, over the table's: 1/(1 + q); 2/7 when rigid.
 ///
 /// # Source
