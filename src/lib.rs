@@ -38,6 +38,12 @@
 //! | F4 | filling and emptying | `free_surface/marks.rs` | `dam-break-mass`, `flat-layer-without-flicker` |
 //! | F5 | ledger | `free_surface/ledger.rs` | `dam-break-mass`, `dam-break-momentum` |
 //! | F6 | drops, bubbles, single cells | `free_surface/marks.rs` | `isolated-cell`, `random-bubbles-and-drops` |
+//! | D1 | normal force of grains | `dem/contact/hertz.rs`, `tsuji.rs`, `linear.rs` | `hertz-contact-time`, `restitution-visco-elastic` |
+//! | D2 | tangential spring, Coulomb cap, rolling | `dem/contact/friction.rs` | `sliding-to-rolling`, `spring-turns-with-contact` |
+//! | D3 | velocity Verlet, Gear | `dem/integrate/` | `verlet-across-contact`, `gear-fifth-order` |
+//! | D4 | clumps: union, rotation | `dem/clump.rs`, `dem/rotation.rs` | `clump-two-spheres`, `free-clump-flip-period` |
+//! | D5 | walls of grains | `dem/walls/` | `mesh-edge-and-corner`, `mesh-rolling` |
+//! | D6 | neighbours, order of sums | `dem/neighbours/` | `neighbours-complete`, `same-bits-on-threads` |
 
 pub mod bench;
 pub mod boundary;

@@ -6,9 +6,9 @@ use super::Chapter;
 use super::format::table;
 
 /// Equations of the design that this version implements.
-const DESIGN: [&str; 21] = [
+const DESIGN: [&str; 27] = [
     "L1", "L2", "L3", "L4", "L5", "L6", "L7", "Y1", "Y2", "Y3", "Y4", "Y5", "K1", "K2", "K3", "K4", "K5",
-    "K6", "B1", "B2", "B3",
+    "K6", "B1", "B2", "B3", "D1", "D2", "D3", "D4", "D5", "D6",
 ];
 
 /// Equations of the papers: paper, prefix of the number, last number.
@@ -58,8 +58,8 @@ pub(super) fn render(out: &mut String, chapters: &[Chapter]) {
         }
     }
     out.push_str(
-        "\nMany equations of the papers describe grains, free surfaces or experiments, which this version does \
-         not have; others are definitions without a consequence of their own.\n",
+        "\nMany equations of the papers describe grains in the fluid or experiments, which this version does not \
+         have; others are definitions without a consequence of their own.\n",
     );
 }
 

@@ -209,6 +209,9 @@ pub enum VerifyError {
     /// The run did not become steady.
     #[error("not steady after {steps} steps: residual {residual:.2e} > {wanted:.0e}")]
     NotSteady { steps: u64, residual: f64, wanted: f64 },
+    /// Grains were refused, or a guard stopped them.
+    #[error("grains: {0}")]
+    Grains(#[from] crate::dem::DemError),
 }
 
 impl From<Stopped> for VerifyError {

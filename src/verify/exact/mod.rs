@@ -11,6 +11,7 @@ pub mod discrete_modes;
 pub mod duct;
 pub mod film;
 pub mod flow_curve;
+pub mod grains;
 pub mod layered_channel;
 pub mod norms;
 pub mod pipe;
