@@ -3,6 +3,7 @@
 //! Same units, axes, boundaries and gravity as scenes with fluid; there are no cells, so there is no spacing.
 
 mod check;
+mod check_place;
 mod contact;
 mod output;
 mod place;
