@@ -32,6 +32,46 @@ pub(super) fn prism(axis: Axis, points: &[[f64; 2]], ends: [f64; 2]) -> Result<M
     Mesh::new(&corners, &faces)
 }
 
+/// Flat faces around a cone; their middles are 5e-4 of the radius inside it.
+const FACES: u32 = 96;
+
+/// The side of a cone between two discs, with the discs if it is `closed`.
+///
+/// # Errors
+/// Numbers that are not finite.
+pub(super) fn cone(base: V3, axis: V3, height: f64, radii: [f64; 2], closed: bool) -> Result<Mesh, DemError> {
+    let k = (0..3).min_by(|&a, &b| axis[a].abs().total_cmp(&axis[b].abs())).unwrap_or(0);
+    let u = axis.cross(&V3::ith(k, 1.0)).normalize();
+    let v = axis.cross(&u);
+    let mut corners = Vec::with_capacity(2 * FACES as usize + 2);
+    for (end, radius) in [base, base + axis * height].into_iter().zip(radii) {
+        corners.extend((0..FACES).map(|i| {
+            let angle = 2.0 * std::f64::consts::PI * f64::from(i) / f64::from(FACES);
+            end + (u * libm::cos(angle) + v * libm::sin(angle)) * radius
+        }));
+        corners.push(end);
+    }
+    let (second, middle) = (FACES + 1, FACES);
+    let mut faces = Vec::new();
+    for i in 0..FACES {
+        let j = (i + 1) % FACES;
+        // At a tip all corners are one place: the triangle that has its edge there would have no area.
+        if radii[0] > 0.0 {
+            faces.push([i, j, second + i]);
+        }
+        if radii[1] > 0.0 {
+            faces.push([j, second + j, second + i]);
+        }
+        if closed && radii[0] > 0.0 {
+            faces.push([i, j, middle]);
+        }
+        if closed && radii[1] > 0.0 {
+            faces.push([second + i, second + j, second + middle]);
+        }
+    }
+    Mesh::new(&corners, &faces)
+}
+
 /// Twice the signed area of a triangle.
 fn area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -128,6 +168,20 @@ mod tests {
         l.reverse();
         assert_eq!(sum(&l), 4.0);
         assert_eq!(sum(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), 0.5);
+    }
+
+    /// A cone with a tip and a funnel: bounds, faces, and the distance of the flat faces from the axis.
+    #[test]
+    fn exact_cones() {
+        let tip = cone(V3::zeros(), V3::z(), 2.0, [1.0, 0.0], true).unwrap();
+        assert_eq!(tip.triangles.len(), 2 * 96);
+        assert_eq!((tip.bounds().0.z, tip.bounds().1.z), (0.0, 2.0));
+        let funnel = cone(V3::zeros(), V3::z(), 1.0, [1.0, 1.0], false).unwrap();
+        assert_eq!(funnel.triangles.len(), 2 * 96);
+        let mut near = Vec::new();
+        funnel.near(&V3::new(0.0, 0.0, 0.5), 2.0, None, &mut near);
+        let least = near.iter().map(|n| n.distance).fold(f64::INFINITY, f64::min);
+        assert!((least - libm::cos(std::f64::consts::PI / 96.0)).abs() < 1e-14);
     }
 
     #[test]

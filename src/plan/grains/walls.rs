@@ -132,7 +132,14 @@ fn add(scene: &DryScene, shape: &Shape, inverted: bool, out: &mut Vec<Surface>) 
             out.push(Surface::Mesh(meshes::terrain(field, scene.domain.size_m).map_err(broken)?));
         }
         Shape::Union(parts) => parts.iter().try_for_each(|part| add(scene, part, false, out))?,
-        Shape::Cone { .. } | Shape::Intersection(_) | Shape::Difference { .. } => {
+        Shape::Cone { base_m, direction, height_m, base_radius_m, top_radius_m } => {
+            let (base, axis) = (V3::from(*base_m), V3::from(*direction).normalize());
+            let radii = [*base_radius_m, *top_radius_m];
+            // Around grains it is a funnel: open at both ends.
+            let mesh = meshes::cone(base, axis, *height_m, radii, !inverted).map_err(broken)?;
+            out.push(Surface::Mesh(mesh));
+        }
+        Shape::Intersection(_) | Shape::Difference { .. } => {
             // The check of the scene names these; nothing to touch is left here.
         }
     }

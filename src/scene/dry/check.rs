@@ -208,7 +208,7 @@ fn body(at: &Checker, i: usize, solid: &GrainSolid, size_m: [f64; 3]) -> Result<
             at.shape(&path("shape"), shape, size_m, solid.invert)?;
             at.ensure(touchable(shape, solid.invert), &path("shape"), || SceneProblem::ShapeNotForGrains {
                 what: "touched by grains",
-                allowed: "`box`, `cylinder`, `sphere`, `half_space`, `polygon`, `heightfield`, and a `union` of those \
+                allowed: "`box`, `cylinder`, `sphere`, `half_space`, `cone`, `polygon`, `heightfield`, and a `union` of those \
                           that is not inverted",
                 way_out: "several solids, or a `mesh`",
             })
@@ -235,10 +235,11 @@ fn body(at: &Checker, i: usize, solid: &GrainSolid, size_m: [f64; 3]) -> Result<
 /// Whether contact with the surface of a shape can be found.
 fn touchable(shape: &Shape, inverted: bool) -> bool {
     match shape {
-        Shape::Box { .. } | Shape::Cylinder { .. } | Shape::Sphere { .. } | Shape::HalfSpace { .. } => true,
+        Shape::Box { .. } | Shape::Cylinder { .. } | Shape::Sphere { .. } => true,
+        Shape::HalfSpace { .. } | Shape::Cone { .. } => true,
         Shape::Polygon { .. } | Shape::Heightfield(_) => !inverted,
         Shape::Union(parts) => !inverted && parts.iter().all(|part| touchable(part, false)),
-        Shape::Cone { .. } | Shape::Intersection(_) | Shape::Difference { .. } => false,
+        Shape::Intersection(_) | Shape::Difference { .. } => false,
     }
 }
 

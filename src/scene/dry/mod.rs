@@ -146,7 +146,8 @@ pub enum IntegratorChoice {
 pub struct GrainSolid {
     /// Unique name.
     pub name: String,
-    /// A body that grains are outside of. Give this or `mesh`.
+    /// A body that grains are outside of. A cone has 96 flat sides; inverted it is a funnel, open at both ends. Give
+    /// this or `mesh`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shape: Option<Shape>,
     /// Triangles, touched from both sides. Give this or `shape`.
