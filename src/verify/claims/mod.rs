@@ -8,6 +8,7 @@ pub mod film;
 pub mod free_surface;
 pub mod moments;
 pub mod mutants_physics;
+pub mod piles;
 pub mod poiseuille;
 pub mod slump;
 pub mod stability;
@@ -15,7 +16,7 @@ pub mod unsteady;
 pub mod viscosity;
 pub mod work_precision;
 
-static STUDIES: [&Study; 10] = [
+static STUDIES: [&Study; 11] = [
     &moments::STUDY,
     &viscosity::STUDY,
     &poiseuille::STUDY,
@@ -26,6 +27,7 @@ static STUDIES: [&Study; 10] = [
     &slump::STUDY,
     &dam_break::STUDY,
     &work_precision::STUDY,
+    &piles::STUDY,
 ];
 
 /// All studies, in the order of the report.
