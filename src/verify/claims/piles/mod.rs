@@ -22,7 +22,7 @@ pub static STUDY: Study = Study {
     intro: "Many spheres, or clumps of four, on a rough bed: whether a heap comes to rest and stays there, how steep it \
             lies, how far a column runs out when its side is opened. Grains have a mean radius of 5 mm, 2650 kg/m3, \
             restitution 0.3 and no drag or artificial damping of any kind; spheres have no rolling resistance. The \
-            modulus is 1 to 2 MPa, so that the weight of a grain over its stiffness, rho g R/E, is 1e-4: ten layers press \
+            modulus is 1 MPa, so that the weight of a grain over its stiffness, rho g R/E, is 1e-4: ten layers press \
             the lowest contacts by one per cent of the radius. Slices are periodic in the direction across.\n\n\
             A heap's angle and a column's run-out depend on how it was made. Here blocks fall loosely into place between \
             smooth walls, which are then taken away at once.",
@@ -32,7 +32,7 @@ pub static STUDY: Study = Study {
     limits: &[
         "The time step must be short enough for the dashpots of all contacts of a grain together. With 15 steps in the \
          shortest contact a heap of 343 spheres keeps a kinetic energy of 1e-10 of its largest for ever, with 30 it comes \
-         to rest; tetrahedral clumps with eleven contacts each need 50.",
+         to rest; tetrahedral clumps, which have more contacts, are given 40.",
         "The published run-outs differ among materials by a third, and the run-out of a column a few grains wide grows \
          with the number of grains across. The comparison cannot be sharper than that.",
         "The references for the angle of repose are statements of order, not numbers: angles of repose depend on size, \

@@ -21,6 +21,8 @@ const GONE: f64 = -4.0 * R;
 pub struct Heap {
     /// Angle of the left and of the right flank, degrees.
     pub flanks: [f64; 2],
+    /// Angle of the triangle on the platform whose centre of mass is as high, degrees: tan θ = 3 z/half width.
+    pub triangle: f64,
     /// Grains left.
     pub grains: usize,
     /// Kinetic energy of the liveliest grain, m g R; below 1e-5 unless the wait was too long.
@@ -65,9 +67,20 @@ fn open(matter: &Matter, half: f64, depth: f64, seed: u64) -> Result<Heap, DemEr
         if (time > 0.2 && most < REST) || time > LONGEST {
             let grains = (0..d.bodies().len()).filter(|&i| free(&d, i)).count();
             let flanks = [-1.0, 1.0].map(|side| angle(&d, half, depth, side));
-            return Ok(Heap { flanks, grains, liveliest: most, time });
+            return Ok(Heap { flanks, triangle: triangle(&d, half), grains, liveliest: most, time });
         }
     }
+}
+
+/// See [`Heap::triangle`]. All grains of the heap count, so it scatters less than the flanks of a small heap.
+fn triangle(d: &Dem, half: f64) -> f64 {
+    let b = d.bodies();
+    let (mut mass, mut moment) = (0.0, 0.0);
+    for i in (0..b.len()).filter(|&i| free(d, i)) {
+        mass += b.mass[i];
+        moment += b.mass[i] * b.position[i].z;
+    }
+    libm::atan(3.0 * moment / mass / half).to_degrees()
 }
 
 /// Angle of a flank, degrees: a straight line by least squares through the highest points of the grains in square

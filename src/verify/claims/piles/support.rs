@@ -51,7 +51,7 @@ impl Matter {
     /// sphere of the mean radius. With as few steps per contact as for spheres they never come to rest: the dashpots of
     /// all contacts of a clump add up.
     pub fn clumps(friction: f64, edge: f64) -> Self {
-        Self { edge: Some(edge), young: 2e6, steps: 50.0, ..Self::spheres(friction) }
+        Self { edge: Some(edge), steps: 40.0, ..Self::spheres(friction) }
     }
 
     /// A slice of this depth (m), periodic in y, with gravity along −z and no grains yet.
