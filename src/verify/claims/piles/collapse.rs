@@ -29,11 +29,7 @@ pub const RUN_OUT: Claim = Claim {
         uncertainty: 0.14,
     },
     metric: Metric::Relative,
-    ladder: Ladder {
-        parameter: "nominal height over width a",
-        short: &[0.5, 1.0],
-        full: &[0.5, 1.0, 2.0, 4.0],
-    },
+    ladder: Ladder { parameter: "nominal height over width a", short: &[0.5], full: &[0.5, 1.0, 2.0, 4.0] },
     order: None,
     tolerance: Tolerance {
         value: 0.35,

@@ -95,9 +95,7 @@ pub fn collapse(matter: &Matter, across: f64, aspect: f64, seed: u64) -> Result<
 
 fn fall(matter: &Matter, across: f64, aspect: f64, seed: u64) -> Result<Deposit, DemError> {
     let (width, depth) = (2.0 * R * across, 8.0 * R * (1.0 + 1e-9));
-    // Taller columns are stiffer: ρ g H/E is kept.
-    let taller = (across * aspect / 10.0).max(1.0);
-    let matter = Matter { young: matter.young * taller, speed: matter.speed * taller.sqrt(), ..*matter };
+    let matter = matter.taller(across * aspect / 10.0);
     let mut s = matter.slice(depth)?;
     // As many layers as give the wanted height when the grains have settled to 0.58 of the volume (their mean cube
     // is 1.04 R³).

@@ -31,7 +31,7 @@ pub static STUDY: Study = Study {
     mutants: &[],
     limits: &[
         "The time step must be short enough for the dashpots of all contacts of a grain together. With 15 steps in the \
-         shortest contact a heap of 343 spheres keeps a kinetic energy of 1e-10 of its largest for ever, with 30 it comes \
+         shortest contact a heap of 343 spheres keeps a kinetic energy of 1e-10 of its largest for ever, with 25 it comes \
          to rest; tetrahedral clumps, which have more contacts, are given 40.",
         "The published run-outs differ among materials by a third, and the run-out of a column a few grains wide grows \
          with the number of grains across. The comparison cannot be sharper than that.",

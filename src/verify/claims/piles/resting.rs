@@ -46,6 +46,7 @@ static KNOWN: Known<Rest> = Known::new();
 /// A cube of `edge`³ spheres above its bed, and their number.
 fn cube(edge: u32, matter: &Matter) -> Result<(Setup, usize), DemError> {
     let side = matter.cell() * f64::from(edge) * (1.0 + 1e-9);
+    let matter = matter.taller(f64::from(edge) / 10.0);
     let mut s = matter.slice(side)?;
     s.grains = matter.block(-0.5 * side, 0.5 * side, side, side, 9)?;
     let grains = s.grains.len();

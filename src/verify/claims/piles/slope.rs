@@ -11,8 +11,8 @@ const REST: f64 = 1e-5;
 const LONGEST: f64 = 4.0;
 /// Kinetic energy of the liveliest grain of a block that has settled well enough to be let go, m g R.
 const STILL: f64 = 1e-3;
-/// Height of the settled block over half the width of the platform.
-const HEIGHT: f64 = 1.0;
+/// Height of the settled block over half the width of the platform, above the tangent of any angle of repose here.
+const HEIGHT: f64 = 1.3;
 /// Grains this far below the platform are taken out, m.
 const GONE: f64 = -4.0 * R;
 

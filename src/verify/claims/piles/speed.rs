@@ -171,8 +171,13 @@ fn ratios(full: bool, work: f64) -> Result<Table, VerifyError> {
             "making the list, CPU time [ns per particle]",
         ],
     );
-    let beds: &[(f64, u32)] = if full { &[(5.0, 64), (20.0, 1), (20.0, 8)] } else { &[(20.0, 1)] };
-    let mut setups = vec![(1.0, crystal(14).map_err(refused)?)];
+    // Sizes of one kind of about as many bodies beside those of mixed sizes.
+    let plain: &[u32] = if full { &[14, 26] } else { &[14] };
+    let beds: &[(f64, u32)] = if full { &[(5.0, 18), (10.0, 2), (20.0, 2)] } else { &[(10.0, 2)] };
+    let mut setups = Vec::new();
+    for &k in plain {
+        setups.push((1.0, crystal(k).map_err(refused)?));
+    }
     for &(ratio, k) in beds {
         setups.push((ratio, mixed(ratio, k).map_err(refused)?));
     }

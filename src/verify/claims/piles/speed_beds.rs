@@ -67,29 +67,39 @@ pub fn clumps(k: u32) -> Result<Setup, DemError> {
     Ok(s)
 }
 
-/// Large spheres, `ratio` times as large as the small ones, on a periodic cubic lattice of k cells along x; what is
+/// Large spheres, `ratio` times as large as the small ones, on a periodic cubic lattice of k × 2 × 2 cells; what is
 /// left is filled with a face-centred lattice of small ones, every one pressed against its neighbours.
 ///
 /// # Errors
-/// None for k ≥ 1.
+/// None for k ≥ 2.
 pub fn mixed(ratio: f64, k: u32) -> Result<Setup, DemError> {
     let cell = 2f64.sqrt() * 2.0 * R;
     // Whole cells of the small lattice, a little wider than a large sphere.
-    let cells = (2.2 * ratio * R / cell).ceil();
-    let edge = cells * cell;
+    let edge = (2.3 * ratio * R / cell).ceil() * cell;
+    let lengths = [f64::from(k), 2.0, 2.0].map(|n| n * edge);
     let mut s = empty();
-    let centres: Vec<V3> =
-        (0..k).map(|i| V3::new((f64::from(i) + 0.5) * edge, 0.5 * edge, 0.5 * edge) * PRESSED).collect();
-    let reach = |along: f64| along * edge - 0.25 * cell + 2.0 * R;
-    let region = Region::Box { low: V3::zeros(), high: V3::new(reach(f64::from(k)), reach(1.0), reach(1.0)) };
+    let centres: Vec<V3> = (0..4 * k)
+        .map(|i| [i / 4, i / 2 % 2, i % 2].map(|n| (f64::from(n) + 0.5) * edge * PRESSED))
+        .map(V3::from)
+        .collect();
+    let high = V3::from(lengths.map(|l| l - 0.25 * cell + 2.0 * R));
+    let region = Region::Box { low: V3::zeros(), high };
     let mut random = Random::new(1);
     s.grains = centres.iter().map(|&c| Grain::sphere(ratio * R, c, 0)).collect();
+    // A sphere of the lattice also counts against the images of the large ones beyond the faces.
+    let apart = |x: &V3, c: &V3| {
+        V3::from_fn(|a, _| {
+            let (d, l) = (x[a] - c[a], lengths[a] * PRESSED);
+            d - l * (d / l).round()
+        })
+        .norm()
+    };
     for p in lattice(Lattice::FaceCentred, R, 2.0 * R, &region)? {
         let x = p.centre * PRESSED;
-        if centres.iter().all(|c| (x - c).norm() > (1.0 + ratio) * R * PRESSED) {
+        if centres.iter().all(|c| apart(&x, c) > (1.0 + ratio) * R * PRESSED) {
             s.grains.push(shaken(Grain::sphere(R, x, 0), &mut random, 0.02));
         }
     }
-    s.period = Period([Some(edge * f64::from(k) * PRESSED), Some(edge * PRESSED), Some(edge * PRESSED)]);
+    s.period = Period(lengths.map(|l| Some(l * PRESSED)));
     Ok(s)
 }

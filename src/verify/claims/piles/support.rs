@@ -44,7 +44,7 @@ pub struct Matter {
 impl Matter {
     /// Spheres, 1 MPa: ρ g R/E = 1.3e-4, 1 % overlap under ten layers.
     pub fn spheres(friction: f64) -> Self {
-        Self { edge: None, friction, rolling: 0.0, young: 1e6, steps: 30.0, speed: 1.0 }
+        Self { edge: None, friction, rolling: 0.0, young: 1e6, steps: 25.0, speed: 1.0 }
     }
 
     /// Clumps of four members whose centres are `edge` member radii apart, of the volume of a
@@ -52,6 +52,12 @@ impl Matter {
     /// all contacts of a clump add up.
     pub fn clumps(friction: f64, edge: f64) -> Self {
         Self { edge: Some(edge), steps: 40.0, ..Self::spheres(friction) }
+    }
+
+    /// For a pile `taller` times as tall: the stiffness that keeps ρ g H/E, and the speed of the longer fall. Not softer.
+    pub fn taller(&self, taller: f64) -> Self {
+        let taller = taller.max(1.0);
+        Self { young: self.young * taller, speed: self.speed * taller.sqrt(), ..*self }
     }
 
     /// A slice of this depth (m), periodic in y, with gravity along −z and no grains yet.
