@@ -252,3 +252,72 @@ impl<T: Clone> Known<T> {
         Ok(found)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pile() -> (Setup, Dem) {
+        let matter = Matter::clumps(0.5, 1.5);
+        let side = 3.0 * matter.cell() * (1.0 + 1e-9);
+        let mut s = matter.slice(side).unwrap();
+        s.grains = matter.block(0.0, side, side, side, 1).unwrap();
+        s.grains.extend(bed(-side, 2.0 * side, side));
+        s.walls = vec![gate(0.0, 1.0, "left"), gate(side, -1.0, "right")];
+        let mut d = Dem::new(&s).unwrap();
+        d.step(1500).unwrap();
+        assert!(d.pair_counts().1 > 20, "the clumps have met");
+        (s, d)
+    }
+
+    /// Leaving out nothing changes no bit; leaving out grains that touch nothing changes no bit of the others.
+    #[test]
+    fn parity_of_leaving_out() {
+        let (mut s, mut d) = pile();
+        let mut same = without(&d, &mut s, |_, _| true, 2).unwrap();
+        // The outermost spheres of the bed.
+        let mut fewer = without(&d, &mut s, |d, i| d.bodies().position[i].x > -0.01, 2).unwrap();
+        let gone = d.bodies().len() - fewer.bodies().len();
+        assert!(gone > 0);
+        d.step(300).unwrap();
+        same.step(300).unwrap();
+        fewer.step(300).unwrap();
+        assert_eq!(d.bodies().position, same.bodies().position);
+        let free = |d: &Dem| -> Vec<V3> {
+            (0..d.bodies().len()).filter(|&i| free(d, i)).map(|i| d.bodies().position[i]).collect()
+        };
+        assert_eq!(free(&d), free(&fewer));
+    }
+
+    /// Without its gate a block spreads.
+    #[test]
+    fn walls_are_left_out() {
+        let (mut s, d) = pile();
+        let widest = |d: &Dem| {
+            (0..d.bodies().len())
+                .filter(|&i| free(d, i))
+                .map(|i| d.bodies().position[i].x)
+                .fold(f64::MIN, f64::max)
+        };
+        let before = widest(&d);
+        let mut open = without(&d, &mut s, |_, _| true, 1).unwrap();
+        assert_eq!(s.walls.len(), 1);
+        open.step(2000).unwrap();
+        assert!(widest(&open) > before + R);
+    }
+
+    #[test]
+    fn mean_and_its_error() {
+        let (m, e) = mean(&[1.0, 2.0, 3.0, 6.0]);
+        assert_eq!(m, 3.0);
+        assert!((e - (14.0f64 / 12.0).sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn known_results_are_not_computed_again() {
+        let known = Known::new();
+        assert_eq!(known.get("a", || Ok(1)).unwrap(), 1);
+        assert_eq!(known.get("a", || Ok(2)).unwrap(), 1);
+        assert_eq!(known.get("b", || Ok(2)).unwrap(), 2);
+    }
+}
