@@ -14,12 +14,12 @@ const DEPTH: f64 = 6.0 * R * (1.0 + 1e-9);
 const WIDE: f64 = 16.0;
 
 const LADDER: Ladder =
-    Ladder { parameter: "half width of the platform [mean radii]", short: &[10.0], full: &[10.0, WIDE] };
+    Ladder { parameter: "half width of the platform [mean radii]", short: &[12.0], full: &[12.0, WIDE] };
 
 const TOLERANCE: Tolerance = Tolerance {
-    value: 0.4,
+    value: 0.5,
     at: Rung::Every,
-    because: "the increase must be at least 2.5 of its own standard errors",
+    because: "the increase must be at least two of its own standard errors, 95 per cent",
 };
 
 /// Friction.
