@@ -12,6 +12,8 @@ use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
 
 /// Friction of the spheres.
 const FRICTION: f64 = 0.5;
+/// Steps in the shortest contact: with 25 a heap of 2197 spheres was still moving after 10 s.
+const STEPS: f64 = 40.0;
 
 /// Rest.
 pub const AT_REST: Claim = Claim {
@@ -22,7 +24,7 @@ pub const AT_REST: Claim = Claim {
                a cube of spheres is let go on a rough bed, friction 0.5",
     reference: Reference { source: "Coulomb friction: a static heap does not move", uncertainty: 0.0 },
     metric: Metric::Absolute,
-    ladder: Ladder { parameter: "spheres along an edge", short: &[7.0], full: &[7.0, 13.0, 22.0] },
+    ladder: Ladder { parameter: "spheres along an edge", short: &[6.0], full: &[6.0, 13.0, 22.0] },
     order: None,
     tolerance: Tolerance {
         value: 1e-12,
@@ -68,7 +70,7 @@ pub const HISTORY: Exhibit = Exhibit {
 };
 
 fn heap(edge: f64) -> Result<Rest, VerifyError> {
-    release(edge as u32, &Matter::spheres(FRICTION)).map_err(refused)
+    release(edge as u32, &Matter { steps: STEPS, ..Matter::spheres(FRICTION) }).map_err(refused)
 }
 
 fn at_rest(_: &dyn Backend, edge: f64) -> Result<Sample, VerifyError> {
