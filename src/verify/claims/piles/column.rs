@@ -82,7 +82,7 @@ fn connected(d: &Dem, depth: f64) -> Vec<bool> {
 }
 
 /// Deposits computed so far in this process; claims and exhibits ask for the same ones.
-static KNOWN: Known<Deposit> = Known::new();
+static KNOWN: Known<Deposit> = Known::nothing();
 
 /// Lets a column `across` mean diameters wide and about `aspect` times as high collapse along x; x = 0 is a smooth
 /// wall (a plane of symmetry), the slice is four diameters deep and periodic.

@@ -41,7 +41,7 @@ pub struct Rest {
 }
 
 /// Heaps computed so far in this process; claims and exhibits ask for the same ones.
-static KNOWN: Known<Rest> = Known::new();
+static KNOWN: Known<Rest> = Known::nothing();
 
 /// A cube of `edge`³ spheres above its bed, and their number.
 fn cube(edge: u32, matter: &Matter) -> Result<(Setup, usize), DemError> {

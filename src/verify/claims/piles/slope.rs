@@ -32,7 +32,7 @@ pub struct Heap {
 }
 
 /// Heaps computed so far in this process; claims and exhibits ask for the same ones.
-static KNOWN: Known<Heap> = Known::new();
+static KNOWN: Known<Heap> = Known::nothing();
 
 /// Settles a block between smooth gates at the edges of a rough platform of half width `half` and depth `depth`
 /// (m, periodic), then takes the gates away and waits for what stays.

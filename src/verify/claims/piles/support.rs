@@ -233,7 +233,7 @@ pub struct Known<T>(Mutex<BTreeMap<String, T>>);
 
 impl<T: Clone> Known<T> {
     /// Nothing known yet.
-    pub const fn new() -> Self {
+    pub const fn nothing() -> Self {
         Self(Mutex::new(BTreeMap::new()))
     }
 
@@ -315,7 +315,7 @@ mod tests {
 
     #[test]
     fn known_results_are_not_computed_again() {
-        let known = Known::new();
+        let known = Known::nothing();
         assert_eq!(known.get("a", || Ok(1)).unwrap(), 1);
         assert_eq!(known.get("a", || Ok(2)).unwrap(), 1);
         assert_eq!(known.get("b", || Ok(2)).unwrap(), 2);
