@@ -67,6 +67,14 @@ impl Dem {
     /// # Errors
     /// Too much overlap, a state that is not finite, a spin too fast for the step.
     pub fn step(&mut self, n: u64) -> Result<(), DemError> {
+        if rayon::current_thread_index().is_none() {
+            // A caller outside the pool would be handed over to it, and back, at every pass of every step.
+            return rayon::scope(|_| self.steps_here(n));
+        }
+        self.steps_here(n)
+    }
+
+    fn steps_here(&mut self, n: u64) -> Result<(), DemError> {
         for _ in 0..n {
             self.one_step()?;
         }

@@ -24,7 +24,8 @@ pub struct PairList {
 }
 
 impl PairList {
-    /// All pairs of members of different bodies nearer than (1 + `skin`) × the sum of their radii.
+    /// All pairs of members of different bodies nearer than (1 + `skin`) × the sum of their radii, except those of
+    /// two driven bodies.
     ///
     /// # Exactness
     /// The list is a function of the members alone: any number of threads finds the same list in the same order.
@@ -100,7 +101,8 @@ fn search(
     let from = found.len();
     cells.around(members, i, |j, wrap| {
         let o = &members[j as usize];
-        if o.body == m.body {
+        // Two driven members feel nothing of each other.
+        if o.body == m.body || (o.inverse_mass == 0.0 && m.inverse_mass == 0.0) {
             return;
         }
         let (_, image) = fold(&o.position, period);
@@ -128,7 +130,7 @@ mod tests {
                 radius: libm::pow(ratio, -r.unit()),
                 velocity: V3::zeros(),
                 spin: V3::zeros(),
-                inverse_mass: 1.0,
+                inverse_mass: if i % 5 == 0 { 0.0 } else { 1.0 },
                 body: i as u32 / 2,
                 material: 0,
             })
@@ -146,7 +148,8 @@ mod tests {
                     }
                 }
                 let reach = (1.0 + skin) * (members[a].radius + members[b].radius);
-                if d.norm_squared() < reach * reach && members[a].body != members[b].body {
+                let felt = members[a].inverse_mass + members[b].inverse_mass > 0.0;
+                if d.norm_squared() < reach * reach && members[a].body != members[b].body && felt {
                     out.push((a as u32, b as u32));
                 }
             }

@@ -66,6 +66,14 @@ fn parity_threads() {
     }
 }
 
+/// A caller outside any pool gets the same bits (its steps are moved into the global one).
+#[test]
+fn parity_outside_the_pool() {
+    let s = busy();
+    let outside = std::thread::scope(|scope| scope.spawn(|| state(&s, 1000)).join());
+    assert_eq!(outside.unwrap(), with_threads(1, || state(&s, 1000)));
+}
+
 /// Enough grains that every pass really is split among threads.
 #[test]
 fn parity_threads_many_grains() {

@@ -9,6 +9,7 @@ pub mod free_surface;
 pub mod grains;
 pub mod moments;
 pub mod mutants_physics;
+pub mod piles;
 pub mod poiseuille;
 pub mod slump;
 pub mod stability;
@@ -16,7 +17,7 @@ pub mod unsteady;
 pub mod viscosity;
 pub mod work_precision;
 
-static STUDIES: [&Study; 11] = [
+static STUDIES: [&Study; 12] = [
     &moments::STUDY,
     &viscosity::STUDY,
     &poiseuille::STUDY,
@@ -28,6 +29,7 @@ static STUDIES: [&Study; 11] = [
     &dam_break::STUDY,
     &work_precision::STUDY,
     &grains::STUDY,
+    &piles::STUDY,
 ];
 
 /// All studies, in the order of the report.
