@@ -53,7 +53,7 @@ pub struct PairProperties {
     pub normal: NormalLaw,
     /// Coulomb's coefficient μ ≥ 0.
     pub friction: f64,
-    /// Rolling friction coefficient μ_r ≥ 0: the rolling torque is at most μ_r R* F_n.
+    /// Rolling friction coefficient μ_r ≥ 0: the torque against rolling and twisting is at most μ_r R* F_n.
     pub rolling_friction: f64,
     /// Tangential dashpot as a share of the normal one, ≥ 0; it acts while the contact sticks.
     pub tangential_damping: f64,

@@ -277,12 +277,16 @@ pub fn react<P: Physics>(
         out.tangential = t;
         if law.rolling > 0.0 {
             let arm2 = g.radius * g.radius;
-            let roll = m.relative_spin - g.normal * m.relative_spin.dot(&g.normal);
-            let mut r = Slider { spring: carried(&rolling.roll), force: rolling.torque, keep, energy: 0.0 };
+            // Twisting about the normal is resisted like rolling: without it a sphere on one contact spins for ever.
+            // The twist part of the spring stays along the normal as the contact turns.
+            let along = rolling.roll.dot(&h.normal);
+            let kept = if old { g.normal * (along * keep) } else { V3::zeros() };
+            let spring = carried(&(rolling.roll - h.normal * along)) + kept;
+            let mut r = Slider { spring, force: rolling.torque, keep, energy: 0.0 };
             let stiffness = n.tangential_stiffness * arm2;
             let damping = law.tangential_damping * n.damping * arm2;
             let (t, rate, work) =
-                slide(&mut r, &roll, stiffness, damping, law.rolling * g.radius * force, dt);
+                slide(&mut r, &m.relative_spin, stiffness, damping, law.rolling * g.radius * force, dt);
             losses.rolling += rate + r.energy * stiffness_rate;
             losses.roll_slip += work;
             out.rolling = t;

@@ -26,7 +26,7 @@ pub struct Contact {
     pub law: ContactLaw,
     /// Coulomb's coefficient of friction, no unit.
     pub friction: f64,
-    /// The torque that resists rolling is at most this, times the effective radius, times the normal force; no unit.
+    /// The torque that resists rolling and twisting is at most this, times the effective radius, times the normal force; no unit.
     #[serde(default)]
     pub rolling_friction: f64,
     /// Damping of the tangential spring as a share of the normal damping, no unit; 1 when not given.

@@ -17,6 +17,7 @@ mod restitution;
 mod rolling;
 mod rotation;
 mod support;
+mod twisting;
 
 /// The study.
 pub static STUDY: Study = Study {
@@ -57,6 +58,7 @@ pub static STUDY: Study = Study {
         rolling::TURNTABLE,
         rolling::PENDULUM,
         rolling::RESISTANCE,
+        twisting::RESISTANCE,
         impact::SLIP,
         impact::STICK,
         impact::CRADLE,

@@ -21,7 +21,7 @@ pub static STUDY: Study = Study {
     title: "Piles of grains",
     intro: "Many spheres, or clumps of four, on a rough bed: whether a heap comes to rest and stays there, how steep it \
             lies, how far a column runs out when its side is opened. Grains have a mean radius of 5 mm, 2650 kg/m3, \
-            restitution 0.3 and no drag or artificial damping of any kind; spheres have no rolling resistance. The \
+            restitution 0.3 and no drag or artificial damping of any kind; spheres roll without resistance but in the heaps. The \
             modulus is 1 MPa, so that the weight of a grain over its stiffness, rho g R/E, is 1e-4: ten layers press \
             the lowest contacts by one per cent of the radius. Slices are periodic in the direction across.\n\n\
             A heap's angle and a column's run-out depend on how it was made. Here blocks fall loosely into place between \

@@ -1,6 +1,6 @@
 //! A block of spheres let go on a rough bed, until it rests and after.
 
-use super::support::{Known, Matter, bed, free, liveliest};
+use super::support::{Known, Matter, bed, free, gate, liveliest};
 use crate::dem::{Dem, DemError, Energies, Setup, V3};
 
 /// Steps between looks at the kinetic energy.
@@ -51,6 +51,8 @@ fn cube(edge: u32, matter: &Matter) -> Result<(Setup, usize), DemError> {
     s.grains = matter.block(-0.5 * side, 0.5 * side, side, side, 9)?;
     let grains = s.grains.len();
     s.grains.extend(bed(-2.5 * side, 2.5 * side, side));
+    // A sphere that rolled off the end of the bed would fall for ever.
+    s.walls = vec![gate(-2.5 * side, 1.0, "left"), gate(2.5 * side, -1.0, "right")];
     Ok((s, grains))
 }
 
