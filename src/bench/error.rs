@@ -41,7 +41,7 @@ pub enum BenchError {
         /// The case.
         case: String,
         /// Why.
-        source: crate::dem::DemError,
+        source: Box<crate::dem::DemError>,
     },
     /// A guard stopped one of the flows.
     #[error("`{case}` was stopped at step {step} by the guard: the measurement means nothing")]

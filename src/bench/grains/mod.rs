@@ -194,7 +194,7 @@ pub(super) fn measure(
 impl Subject {
     fn start(options: &Options, bed: &'static Bed, threads: usize) -> Result<Self, BenchError> {
         let setup = (bed.setup)(options.quick);
-        let failed = |source| BenchError::Grains { case: bed.name.to_owned(), source };
+        let failed = |source| BenchError::Grains { case: bed.name.to_owned(), source: Box::new(source) };
         let pool =
             rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(BenchError::Threads)?;
         let dem = pool.install(|| Dem::new(&setup)).map_err(failed)?;
@@ -211,7 +211,10 @@ impl Subject {
         let clock = Instant::now();
         let dem = &mut self.dem;
         let result = self.pool.install(|| dem.step(steps));
-        result.map_err(|source| BenchError::Grains { case: self.bed.name.to_owned(), source })?;
+        result.map_err(|source| BenchError::Grains {
+            case: self.bed.name.to_owned(),
+            source: Box::new(source),
+        })?;
         Ok(clock.elapsed().as_secs_f64().max(1e-9))
     }
 
