@@ -27,6 +27,8 @@ pub struct PlainWallContact {
     pub image: Plain,
     /// From the wall to the member.
     pub normal: Plain,
+    /// m.
+    pub overlap: f64,
     /// As in [`PlainPair`].
     pub history: [f64; 12],
 }
@@ -140,6 +142,7 @@ impl Dem {
                     feature: c.feature,
                     image: pack(&c.image),
                     normal: pack(&c.normal),
+                    overlap: c.overlap,
                     history: pack_history(&c.history, &c.rolling),
                 })
                 .collect(),
@@ -211,7 +214,7 @@ impl Dem {
             }
             dem.pairs.touching[p] = true;
         }
-        for PlainWallContact { member, wall, feature, image, normal, history } in &c.walls {
+        for PlainWallContact { member, wall, feature, image, normal, overlap, history } in &c.walls {
             let entry = dem.near_of.get(*member as usize).copied().unwrap_or(u32::MAX);
             let Some(n) = dem.near.get_mut(entry as usize) else {
                 return Err(DemError::Checkpoint {
@@ -226,7 +229,7 @@ impl Dem {
                 feature: *feature,
                 image: V3::from(*image),
                 normal: V3::from(*normal),
-                overlap: 0.0,
+                overlap: *overlap,
                 arm: V3::zeros(),
                 force: V3::zeros(),
                 history,

@@ -195,11 +195,11 @@ impl Driver<'_> {
             self.stepping += clock.elapsed().as_secs_f64();
             self.updates += spheres as f64 * (self.grains.dem.steps() - from) as f64;
             self.progress.set(self.grains.dem.steps());
-            let result = result.and_then(|()| {
-                if opens { leave::take_out(&mut self.grains, self.scene, self.plan) } else { Ok(()) }
-            });
             if let Err(error) = result {
                 return Err(self.stopped(&error, writer)?);
+            }
+            if opens {
+                leave::take_out(&mut self.grains, self.scene, self.plan);
             }
         }
         Ok(())

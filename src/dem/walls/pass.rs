@@ -74,6 +74,13 @@ pub struct Scenery {
 }
 
 impl Scenery {
+    /// Leaves out the walls from number `walls` on.
+    pub(in crate::dem) fn truncate(&mut self, walls: usize) {
+        self.walls.truncate(walls);
+        self.poses.truncate(walls);
+        self.shifts.truncate(walls);
+    }
+
     /// Walls at time zero.
     pub fn new(walls: Vec<Wall>) -> Self {
         let shifts = walls.iter().map(Wall::shifts).collect();

@@ -1,6 +1,6 @@
 //! Column of spheres that settles between smooth walls and collapses when one of them is taken away.
 
-use super::support::{G, Known, Matter, R, SETTLED, VOLUME, bed, free, gate, liveliest, without};
+use super::support::{G, Known, Matter, R, SETTLED, VOLUME, bed, free, gate, leave_out, liveliest};
 use crate::dem::neighbours::PairList;
 use crate::dem::{Dem, DemError};
 
@@ -116,14 +116,14 @@ fn fall(matter: &Matter, across: f64, aspect: f64, seed: u64) -> Result<Deposit,
     let inside = across as usize;
     let height = full[..inside].iter().sum::<f64>() / inside as f64;
     let grains = (0..d.bodies().len()).filter(|&i| free(&d, i)).count();
-    let mut d = without(&d, &mut s, |_, _| true, 1)?;
+    leave_out(&mut d, |_, _| true, 1);
     let start = d.time();
     loop {
         d.step(LOOK)?;
         // Single grains bounce and roll ahead of the deposit; those that leave the bed are taken out.
         let stays = |d: &Dem, i: usize| !free(d, i) || d.bodies().position[i].z > -4.0 * R;
         if (0..d.bodies().len()).any(|i| !stays(&d, i)) {
-            d = without(&d, &mut s, stays, 1)?;
+            leave_out(&mut d, stays, 1);
         }
         let time = d.time() - start;
         if time < 0.2 {

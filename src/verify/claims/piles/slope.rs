@@ -1,6 +1,6 @@
 //! What stays on a platform when the rest of a block has fallen off its edges, and how steep it is.
 
-use super::support::{Known, Matter, R, SETTLED, VOLUME, bed, free, gate, liveliest, without};
+use super::support::{Known, Matter, R, SETTLED, VOLUME, bed, free, gate, leave_out, liveliest};
 use crate::dem::{Dem, DemError};
 
 /// Steps between looks.
@@ -59,13 +59,13 @@ fn open(matter: &Matter, half: f64, depth: f64, seed: u64) -> Result<Heap, DemEr
     while d.time() < 0.1 || (liveliest(&d) > STILL && d.time() < LONGEST) {
         d.step(LOOK)?;
     }
-    let mut d = without(&d, &mut s, |_, _| true, 0)?;
+    leave_out(&mut d, |_, _| true, 0);
     let start = d.time();
     loop {
         d.step(LOOK)?;
         let stays = |d: &Dem, i: usize| !free(d, i) || d.bodies().position[i].z > GONE;
         if (0..d.bodies().len()).any(|i| !stays(&d, i)) {
-            d = without(&d, &mut s, stays, 0)?;
+            leave_out(&mut d, stays, 0);
         }
         let (most, time) = (liveliest(&d), d.time() - start);
         if (time > 0.2 && most < REST) || time > LONGEST {
