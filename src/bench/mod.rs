@@ -10,7 +10,7 @@ pub mod bandwidth;
 pub mod cases;
 mod error;
 mod flows;
-mod grains;
+pub mod grains;
 mod machine;
 mod measure;
 mod statistics;

@@ -1,109 +1,126 @@
-//! The packings that grains are timed on.
+//! Dense beds to measure speeds on: for `lahar bench` and for the exhibit `grains-speed`.
 
 use crate::dem::packing::{Lattice, Random, Region, lattice};
 use crate::dem::{
-    Clump, Grain, Material, Materials, Orientation, PairProperties, Period, Setup, Side, Surface, V3, Wall,
+    Clump, DemError, Grain, Material, Materials, Orientation, PairProperties, Period, Setup, Side, Surface,
+    V3, Wall,
 };
 
-/// Radius of a grain, m.
+/// Radius of the grains, m.
 const R: f64 = 5e-3;
-/// Edge of the tetrahedral clumps over the radius of their spheres.
-const EDGE: f64 = 1.5;
+/// Centres are this much nearer than touching.
+const PRESSED: f64 = 0.999;
 
-fn soft() -> Setup {
-    let material = Material { name: "grain".to_owned(), density_kg_m3: 2650.0, young_pa: 7e7, poisson: 0.22 };
-    let mut setup = Setup::new(Materials::single(material, PairProperties::default()));
-    // Packings are pressed a little, so that all neighbours touch.
-    setup.start_overlap = 0.02;
-    setup
+fn empty() -> Setup {
+    let material = Material { name: "grain".into(), density_kg_m3: 2650.0, young_pa: 7e7, poisson: 0.22 };
+    let mut s = Setup::new(Materials::single(material, PairProperties::default()));
+    s.start_overlap = 0.02;
+    s
 }
 
-/// A dense bed of spheres under gravity in a box: a face-centred lattice pressed a little and shaken.
-pub(super) fn spheres(n: usize) -> Setup {
-    let mut s = soft();
+fn shaken(grain: Grain, random: &mut Random, speed: f64) -> Grain {
+    grain.moving(V3::from_fn(|_, _| speed * random.normal()))
+}
+
+/// A periodic face-centred lattice `k` cells wide, every sphere pressed against twelve others and shaken.
+///
+/// # Errors
+/// None for k ≥ 1.
+pub fn crystal(k: u32) -> Result<Setup, DemError> {
+    let cell = 2f64.sqrt() * 2.0 * R;
+    let region = Region::Box { low: V3::zeros(), high: V3::repeat((f64::from(k) - 0.25) * cell + 2.0 * R) };
+    let mut s = empty();
+    let mut random = Random::new(1);
+    s.grains = lattice(Lattice::FaceCentred, R, 2.0 * R, &region)?
+        .into_iter()
+        .map(|p| shaken(Grain::sphere(R, p.centre * PRESSED, 0), &mut random, 0.02))
+        .collect();
+    s.period = Period([Some(f64::from(k) * cell * PRESSED); 3]);
+    Ok(s)
+}
+
+/// About `n` spheres under gravity in a box: a face-centred lattice pressed a little and shaken, which settles.
+///
+/// # Errors
+/// None for n ≥ 1.
+pub fn spheres(n: usize) -> Result<Setup, DemError> {
     let side = 2.0 * R * libm::cbrt(n as f64 / 2f64.sqrt()) * 1.02;
     let region = Region::Box { low: V3::zeros(), high: V3::repeat(side) };
+    let mut s = empty();
     let mut random = Random::new(1);
-    s.grains = lattice(Lattice::FaceCentred, R, 2.0 * R, &region)
-        .unwrap_or_default()
+    s.grains = lattice(Lattice::FaceCentred, R, 2.0 * R, &region)?
         .into_iter()
-        .map(|p| Grain::sphere(R, p.centre * 0.9995, 0).moving(V3::from_fn(|_, _| 0.05 * random.normal())))
+        .map(|p| shaken(Grain::sphere(R, p.centre * 0.9995, 0), &mut random, 0.05))
         .collect();
-    boxed(s, side, 0.0)
+    Ok(boxed(s, side, 0.0))
 }
 
-/// A dense bed of tetrahedral clumps: all turned alike, each touching six neighbours with four pairs of spheres.
-pub(super) fn clumps(n: usize) -> Setup {
-    let mut s = soft();
-    s.clumps = Clump::tetrahedron(1.0, EDGE).into_iter().collect();
-    let Some(clump) = s.clumps.first() else { return s };
-    let (member, frame) = (R / clump.equivalent_radius(), clump.frame);
-    let a = EDGE / 8f64.sqrt();
-    let pitch = member * (2.0 * a + 2.0 * (1.0 - a * a).sqrt());
-    let side = pitch * (libm::cbrt(n as f64) + 0.5);
-    let region = Region::Box { low: V3::zeros(), high: V3::repeat(side) };
-    let mut random = Random::new(1);
-    s.grains = lattice(Lattice::SimpleCubic, 0.5 * pitch, pitch, &region)
-        .unwrap_or_default()
-        .into_iter()
-        .map(|p| {
-            let noise = V3::from_fn(|_, _| 0.002 * random.normal());
-            Grain::clump(0, R, p.centre * 0.999, frame, 0).moving(noise)
-        })
-        .collect();
-    // The spheres of a clump reach beyond half the pitch.
-    boxed(s, side, 0.2 * R)
-}
-
+/// In a box from 0 to `side`, wider by `margin` on all sides (m), under gravity.
 fn boxed(mut s: Setup, side: f64, margin: f64) -> Setup {
-    let centre = V3::repeat(0.5 * side);
-    let half = V3::repeat(0.5 * side + margin);
+    let (centre, half) = (V3::repeat(0.5 * side), V3::repeat(0.5 * side + margin));
     let surface = Surface::Box { centre, half, orientation: Orientation::identity(), side: Side::Inside };
     s.walls = vec![Wall::fixed("box", surface, 0)];
     s.gravity = V3::z() * -9.81;
     s
 }
 
-/// The same work per grain at every number: a periodic face-centred lattice of `k`³ cells, pressed a little.
-pub(super) fn crystal(k: u32) -> Setup {
-    let mut s = soft();
-    let cell = 2f64.sqrt() * 2.0 * R;
-    let region = Region::Box { low: V3::zeros(), high: V3::repeat((f64::from(k) - 0.25) * cell + 2.0 * R) };
+/// A box of k³ tetrahedral clumps of edge 1.5 r in one orientation, each touching its six neighbours with four pairs
+/// of members, under gravity.
+///
+/// # Errors
+/// None for k ≥ 1.
+pub fn clumps(k: u32) -> Result<Setup, DemError> {
+    let mut s = empty();
+    let clump = Clump::tetrahedron(1.0, 1.5)?;
+    let member = R / clump.equivalent_radius();
+    let a = 1.5 / 8f64.sqrt();
+    let pitch = member * (2.0 * a + 2.0 * (1.0 - a * a).sqrt());
+    let side = pitch * (f64::from(k) + 0.5);
+    let region = Region::Box { low: V3::zeros(), high: V3::repeat(side) };
     let mut random = Random::new(1);
-    s.grains = lattice(Lattice::FaceCentred, R, 2.0 * R, &region)
-        .unwrap_or_default()
+    let upright = clump.frame;
+    s.grains = lattice(Lattice::SimpleCubic, 0.5 * pitch, pitch, &region)?
         .into_iter()
-        .map(|p| Grain::sphere(R, p.centre * 0.999, 0).moving(V3::from_fn(|_, _| 0.02 * random.normal())))
+        .map(|p| shaken(Grain::clump(0, R, p.centre * PRESSED, upright, 0), &mut random, 0.002))
         .collect();
-    s.period = Period([Some(f64::from(k) * cell * 0.999); 3]);
-    s
+    s.clumps.push(clump);
+    // A clump's members reach beyond half the pitch at the outermost corners.
+    Ok(boxed(s, side, 0.2 * R))
 }
 
-/// A dense bed of radii 20 to 1: large spheres on a touching simple cubic lattice, about `n` small ones on a touching
-/// simple cubic lattice in the gaps, pressed a little and shaken, under gravity in a box.
-pub(super) fn mixture(n: usize) -> Setup {
-    const LARGE: f64 = 20.0;
-    let mut s = soft();
-    let (small, large) = (R / 5.0, LARGE * R / 5.0);
-    let cells = ((n as f64 / 3000.0).round().max(1.0)) as usize;
-    let high = V3::new(2.0 * large * cells as f64, 2.0 * large, 2.0 * large);
+/// Large spheres, `ratio` times as large as the small ones, on a periodic cubic lattice of k × 2 × 2 cells; what is
+/// left is filled with a face-centred lattice of small ones, every one pressed against its neighbours.
+///
+/// # Errors
+/// None for k ≥ 2.
+pub fn mixed(ratio: f64, k: u32) -> Result<Setup, DemError> {
+    let cell = 2f64.sqrt() * 2.0 * R;
+    // Whole cells of the small lattice, a little wider than a large sphere.
+    let edge = (2.3 * ratio * R / cell).ceil() * cell;
+    let lengths = [f64::from(k), 2.0, 2.0].map(|n| n * edge);
+    let mut s = empty();
+    let centres: Vec<V3> = (0..4 * k)
+        .map(|i| [i / 4, i / 2 % 2, i % 2].map(|n| (f64::from(n) + 0.5) * edge * PRESSED))
+        .map(V3::from)
+        .collect();
+    let high = V3::from(lengths.map(|l| l - 0.25 * cell + 2.0 * R));
     let region = Region::Box { low: V3::zeros(), high };
-    let mut random = Random::new(3);
-    let mut shaken = |radius: f64, centre: V3| {
-        Grain::sphere(radius, centre * 0.9995, 0).moving(V3::from_fn(|_, _| 0.01 * random.normal()))
+    let mut random = Random::new(1);
+    s.grains = centres.iter().map(|&c| Grain::sphere(ratio * R, c, 0)).collect();
+    // A sphere of the lattice also counts against the images of the large ones beyond the faces.
+    let apart = |x: &V3, c: &V3| {
+        V3::from_fn(|a, _| {
+            let (d, l) = (x[a] - c[a], lengths[a] * PRESSED);
+            d - l * (d / l).round()
+        })
+        .norm()
     };
-    let stones = lattice(Lattice::SimpleCubic, large, 2.0 * large, &region).unwrap_or_default();
-    s.grains = stones.iter().map(|p| shaken(large, p.centre)).collect();
-    let sand = lattice(Lattice::SimpleCubic, small, 2.0 * small, &region).unwrap_or_default();
-    let free = |x: &V3| stones.iter().all(|p| (x - p.centre).norm() >= large + small);
-    s.grains.extend(sand.iter().filter(|p| free(&p.centre)).map(|p| shaken(small, p.centre)));
-    let surface = Surface::Box {
-        centre: 0.5 * high,
-        half: 0.5 * high,
-        orientation: Orientation::identity(),
-        side: Side::Inside,
-    };
-    s.walls = vec![Wall::fixed("box", surface, 0)];
-    s.gravity = V3::z() * -9.81;
-    s
+    for p in lattice(Lattice::FaceCentred, R, 2.0 * R, &region)? {
+        let x = p.centre * PRESSED;
+        if centres.iter().all(|c| apart(&x, c) > (1.0 + ratio) * R * PRESSED) {
+            s.grains.push(shaken(Grain::sphere(R, x, 0), &mut random, 0.02));
+        }
+    }
+    s.period = Period(lengths.map(|l| Some(l * PRESSED)));
+    Ok(s)
 }

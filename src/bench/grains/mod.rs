@@ -1,6 +1,6 @@
 //! Speed of the discrete element method: grains stepped per second.
 
-mod beds;
+pub mod beds;
 
 use std::time::Instant;
 
@@ -11,7 +11,7 @@ use super::error::BenchError;
 use super::measure::Ratio;
 use super::statistics::Spread;
 use super::{Options, Report};
-use crate::dem::{Dem, Integrator, Setup};
+use crate::dem::{Dem, DemError, Integrator, Setup};
 
 /// Name of the group of beds.
 const GROUP: &str = "grains";
@@ -24,7 +24,7 @@ struct Bed {
     name: &'static str,
     shows: &'static str,
     /// The set-up, a tenth as large if asked for.
-    setup: fn(quick: bool) -> Setup,
+    setup: fn(quick: bool) -> Result<Setup, DemError>,
     /// Steps before anything is timed: a packing is to be in motion, not to fall apart.
     warm_up: u64,
     /// Whether it is timed on more than one thread.
@@ -44,9 +44,9 @@ const BEDS: [Bed; 8] = [
         group: GROUP,
         name: "grains/gear",
         shows: "the same, Gear instead of Verlet",
-        setup: |quick| Setup {
-            integrator: Integrator::Gear,
-            ..beds::spheres(if quick { 1_000 } else { 10_000 })
+        setup: |quick| {
+            let bed = beds::spheres(if quick { 1_000 } else { 10_000 })?;
+            Ok(Setup { integrator: Integrator::Gear, ..bed })
         },
         warm_up: 300,
         threads: true,
@@ -63,15 +63,15 @@ const BEDS: [Bed; 8] = [
         group: GROUP,
         name: "grains/clumps",
         shows: "10⁴ tetrahedral clumps, dense",
-        setup: |quick| beds::clumps(if quick { 1_000 } else { 10_000 }),
+        setup: |quick| beds::clumps(if quick { 10 } else { 22 }),
         warm_up: 10,
         threads: true,
     },
     Bed {
         group: GROUP,
         name: "grains/mixture",
-        shows: "10⁴ spheres, radii 20 to 1, dense",
-        setup: |quick| beds::mixture(if quick { 1_000 } else { 10_000 }),
+        shows: "10⁵ spheres, large ones among them 20 times as large, dense",
+        setup: |quick| if quick { beds::mixed(10.0, 2) } else { beds::mixed(20.0, 2) },
         warm_up: 100,
         threads: true,
     },
@@ -106,7 +106,7 @@ const COMPARE: [(&str, &str, &str, Quantity); 6] = [
     ("clumps of four over spheres", "grains/clumps", "grains/spheres", Quantity::TimePerUpdate),
     ("Gear over Verlet", "grains/gear", "grains/spheres", Quantity::TimePerUpdate),
     ("10⁵ spheres over 10⁴", "grains/spheres-many", "grains/spheres", Quantity::TimePerUpdate),
-    ("radii 20 to 1 over equal ones", "grains/mixture", "grains/spheres", Quantity::TimePerUpdate),
+    ("radii 20 to 1 over equal ones", "grains/mixture", "grains/spheres-many", Quantity::TimePerUpdate),
     ("10⁵ over 10⁴", "grains-sizes/1e5", "grains-sizes/1e4", Quantity::TimePerUpdate),
     ("10⁶ over 10⁴", "grains-sizes/1e6", "grains-sizes/1e4", Quantity::TimePerUpdate),
 ];
@@ -193,8 +193,8 @@ pub(super) fn measure(
 
 impl Subject {
     fn start(options: &Options, bed: &'static Bed, threads: usize) -> Result<Self, BenchError> {
-        let setup = (bed.setup)(options.quick);
         let failed = |source| BenchError::Grains { case: bed.name.to_owned(), source: Box::new(source) };
+        let setup = (bed.setup)(options.quick).map_err(failed)?;
         let pool =
             rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(BenchError::Threads)?;
         let dem = pool.install(|| Dem::new(&setup)).map_err(failed)?;
@@ -281,7 +281,7 @@ mod tests {
     #[test]
     fn every_bed_starts() {
         for bed in &BEDS {
-            let setup = (bed.setup)(true);
+            let setup = (bed.setup)(true).unwrap_or_else(|error| panic!("{}: {error}", bed.name));
             assert!(setup.grains.len() >= 800, "{}: {}", bed.name, setup.grains.len());
             let mut dem = Dem::new(&setup).unwrap_or_else(|error| panic!("{}: {error}", bed.name));
             dem.step(20).unwrap_or_else(|error| panic!("{}: {error}", bed.name));

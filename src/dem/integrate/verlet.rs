@@ -4,7 +4,7 @@ use super::Integrator;
 use super::gear::{CORRECTOR, CORRECTOR_0_CONSERVATIVE, Gear};
 use crate::dem::bodies::SPHERE;
 use crate::dem::rotation::{rotate_free, spin_of, turn};
-use crate::dem::{Bodies, V3};
+use crate::dem::{Bodies, Orientation, V3};
 use rayon::prelude::*;
 
 /// Bodies per task at least.
@@ -59,10 +59,7 @@ pub fn drift(b: &mut Bodies, external: &External, step: &Step) -> Option<usize> 
         .with_min_len(LEAST)
         .map(|(i, (x, v, w, q, l, f, t, im, ii, shape))| {
             if *im == 0.0 {
-                *x += *v * dt;
-                if *shape != SPHERE || turn_spheres {
-                    *q = turn(q, w, dt);
-                }
+                carry(x, q, v, w, *shape != SPHERE || turn_spheres, dt);
                 return usize::MAX;
             }
             let (fe, te) = outside(external, i);
@@ -139,6 +136,15 @@ where
         .filter(|&i| i != usize::MAX)
 }
 
+/// Moves a driven body on with the velocity and spin it was told to keep.
+#[inline(always)]
+fn carry(x: &mut V3, q: &mut Orientation, v: &V3, w: &V3, turns: bool, dt: f64) {
+    *x += *v * dt;
+    if turns {
+        *q = turn(q, w, dt);
+    }
+}
+
 /// Gear's predictor for positions and spins (of clumps: angular momenta; their attitude turns freely at the mean
 /// momentum of the step, second order).
 ///
@@ -165,10 +171,7 @@ pub fn predict(b: &mut Bodies, state: &mut (Vec<Gear>, Vec<Gear>), step: &Step) 
         .with_min_len(LEAST)
         .map(|(i, (x, v, w, q, l, im, ii, shape, place, angle))| {
             if *im == 0.0 {
-                *x += *v * dt;
-                if *shape != SPHERE || turn_spheres {
-                    *q = turn(q, w, dt);
-                }
+                carry(x, q, v, w, *shape != SPHERE || turn_spheres, dt);
                 return usize::MAX;
             }
             place.predict();

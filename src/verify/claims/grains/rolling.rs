@@ -1,6 +1,8 @@
 //! Spheres that slide and roll: on a floor, on a slope, on a turntable.
 
-use super::support::{G, RADIUS, mass, rest_on_floor, resting_overlap, setup, trough, wall, worst};
+use super::support::{
+    G, RADIUS, mass, rest_on_floor, resting_overlap, run_until, setup, trough, wall, worst,
+};
 use crate::dem::{Dem, Grain, Mutant, PairProperties, V3};
 use crate::solver::run::Backend;
 use crate::verify::claim::{
@@ -388,9 +390,7 @@ fn resistance(_: &dyn Backend, rolling_friction: f64) -> Result<Sample, VerifyEr
     let stop = v0 / exact;
     let mut d = Dem::new(&s)?;
     let until = |d: &mut Dem, t: f64| -> Result<(f64, f64), VerifyError> {
-        while d.time() < t {
-            d.step(1)?;
-        }
+        run_until(d, t)?;
         Ok((d.bodies().velocity[0].x, d.time()))
     };
     let (v, t) = until(&mut d, 0.5 * stop)?;

@@ -1,7 +1,8 @@
 //! Common set-ups.
 
 use crate::dem::{
-    Dem, Grain, Material, Materials, NormalLaw, PairProperties, Setup, Side, Sphere, Surface, V3, Wall,
+    Dem, DemError, Grain, Material, Materials, NormalLaw, PairProperties, Setup, Side, Sphere, Surface, V3,
+    Wall,
 };
 use crate::verify::claim::VerifyError;
 
@@ -170,4 +171,15 @@ pub(super) fn odd_clump() -> Result<crate::dem::Clump, VerifyError> {
 /// The largest of some errors; a NaN among them is the result.
 pub(super) fn worst(errors: &[f64]) -> f64 {
     errors.iter().fold(0.0, |m: f64, &e| if e.abs() <= m { m } else { e.abs() })
+}
+
+/// Steps until a time is reached, s.
+///
+/// # Errors
+/// What the grains refuse.
+pub fn run_until(d: &mut Dem, time: f64) -> Result<(), DemError> {
+    while d.time() < time {
+        d.step(1)?;
+    }
+    Ok(())
 }

@@ -1,6 +1,6 @@
 //! A sphere that spins about the normal of its only contact.
 
-use super::support::{G, RADIUS, rest_on_floor, setup};
+use super::support::{G, RADIUS, rest_on_floor, run_until, setup};
 use crate::dem::{Dem, PairProperties, V3};
 use crate::solver::run::Backend;
 use crate::verify::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
@@ -40,9 +40,7 @@ fn resistance(_: &dyn Backend, rolling_friction: f64) -> Result<Sample, VerifyEr
     let stop = first / exact;
     let mut d = Dem::new(&s)?;
     let until = |d: &mut Dem, t: f64| -> Result<(f64, f64), VerifyError> {
-        while d.time() < t {
-            d.step(1)?;
-        }
+        run_until(d, t)?;
         Ok((d.bodies().spin[0].z, d.time()))
     };
     let (w, t) = until(&mut d, 0.5 * stop)?;

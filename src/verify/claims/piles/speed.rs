@@ -1,7 +1,7 @@
 //! Speed: a timed exhibit.
 
 use super::refused;
-use super::speed_beds::{clumps, crystal, mixed};
+use crate::bench::grains::beds::{clumps, crystal, mixed};
 use crate::dem::neighbours::PairList;
 use crate::dem::{Dem, DemError, Integrator, Setup};
 use crate::solver::run::Backend;
