@@ -48,6 +48,7 @@
 pub mod bench;
 pub mod boundary;
 pub mod collision;
+pub mod coupling;
 pub mod dem;
 pub mod free_surface;
 pub mod geometry;

@@ -30,6 +30,10 @@ impl Collision for CentralMoment {
         rebuild(m, &p, &relaxed)
     }
 
+    fn has_cubic_equilibrium(&self) -> bool {
+        true
+    }
+
     #[inline(always)]
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
         co_moving_odd_departure(h, m)

@@ -35,6 +35,11 @@ pub trait Collision: Copy + Send + Sync + 'static {
     /// ω⁻. Its mass and momentum are zero.
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q];
 
+    /// Whether the equilibrium has the third moments of \[K3\].
+    fn has_cubic_equilibrium(&self) -> bool {
+        false
+    }
+
     /// τ⁻ − ½ before any floor: what Λ asks for \[K6\].
     #[inline(always)]
     fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
@@ -95,6 +100,9 @@ impl Collision for CollisionChoice {
     #[inline(always)]
     fn odd_omega<L: Lane>(&self, omega: L) -> L {
         for_each_collision!(self, operator => operator.odd_omega(omega))
+    }
+    fn has_cubic_equilibrium(&self) -> bool {
+        matches!(self, Self::CentralMoment(_) | Self::Regularised)
     }
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
         for_each_collision!(self, operator => operator.odd_departure(h, m))

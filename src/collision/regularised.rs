@@ -31,6 +31,10 @@ impl Collision for Regularised {
         rebuild(m, &p, &third)
     }
 
+    fn has_cubic_equilibrium(&self) -> bool {
+        true
+    }
+
     #[inline(always)]
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
         co_moving_odd_departure(h, m)

@@ -238,7 +238,11 @@ fn check_period(s: &Setup, b: &Bodies, members: &[Member]) -> Result<(), DemErro
             Shape::Clump(k) => Some(2.0 * s.clumps[k].reach * b.radius[i] / s.clumps[k].equivalent_radius()),
         })
         .fold(0.0, f64::max);
-    let needed_m = (4.0 * largest * (1.0 + s.skin)).max(extent + 2.0 * largest * (1.0 + s.skin));
+    // A single sphere only has to leave room for itself.
+    let needed_m = match b.len() {
+        1 if extent == 0.0 => 2.0 * largest,
+        _ => (4.0 * largest * (1.0 + s.skin)).max(extent + 2.0 * largest * (1.0 + s.skin)),
+    };
     for k in 0..3 {
         if let Some(length_m) = s.period.0[k].filter(|&l| l <= needed_m) {
             return Err(DemError::PeriodTooShort { axis: ['x', 'y', 'z'][k], length_m, needed_m });

@@ -28,6 +28,10 @@ pub struct Books {
     pub from_gas: VectorSum,
     /// Cells that became fluid, less those that became gas.
     pub from_conversions: VectorSum,
+    /// Mass from grains.
+    pub mass_from_grains: Sum,
+    /// Grains.
+    pub from_grains: VectorSum,
     /// Cells that changed kind.
     pub conversions: u64,
 }
@@ -213,7 +217,7 @@ impl Books {
     /// Mass gained or lost since the last closing, and the bound of rounding; `None` if within it.
     /// `rounding`: largest relative error of a stored population.
     pub fn close(&mut self, mass: f64, fluid_cells: u64, rounding: f64) -> Option<(f64, f64)> {
-        let external = self.from_walls.value() - self.outflow.value();
+        let external = (self.from_walls.value() - self.outflow.value()) + self.mass_from_grains.value();
         let before = self.mass;
         self.mass = mass - external;
         let residual = (mass - external - before).abs();
@@ -226,9 +230,16 @@ impl Books {
     #[must_use]
     pub fn ledger(&self, mass: f64, momentum: [f64; 3], parked: f64, cells: [u64; 2]) -> Ledger {
         let (outflow, from_walls) = (self.outflow.value(), self.from_walls.value());
-        let parts =
-            [self.from_force, self.from_faces, self.from_solids, self.from_gas, self.from_conversions]
-                .map(|sum| sum.value());
+        let mass_from_grains = self.mass_from_grains.value();
+        let parts = [
+            self.from_force,
+            self.from_faces,
+            self.from_solids,
+            self.from_gas,
+            self.from_conversions,
+            self.from_grains,
+        ]
+        .map(|sum| sum.value());
         let mut worst = 0.0_f64;
         for a in 0..3 {
             let mut sum = Sum::default();
@@ -244,13 +255,16 @@ impl Books {
             parked,
             outflow,
             from_walls,
-            mass_residual: (((mass - self.initial_mass) + outflow) - from_walls) / self.initial_mass,
+            mass_residual: ((((mass - self.initial_mass) + outflow) - from_walls) - mass_from_grains)
+                / self.initial_mass,
             momentum,
             from_force: parts[0],
             from_faces: parts[1],
             from_solids: parts[2],
             from_gas: parts[3],
             from_conversions: parts[4],
+            mass_from_grains,
+            from_grains: parts[5],
             momentum_residual: worst,
             liquid_cells: cells[0],
             interface_cells: cells[1],

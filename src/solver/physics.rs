@@ -52,6 +52,13 @@ pub trait Physics: Clone + Send + Sync + 'static {
         bounce_back::bounce_back(out, i, rho, u_wall)
     }
 
+    /// What the third-order part of the equilibrium adds to a wall that moves with the fluid, so that uniform flow
+    /// passes it unchanged: −(f_i^eq − f_ī^eq) beyond second order.
+    fn wall_cubic(&self, i: usize, rho: f64, u_wall: &[f64; 3]) -> f64 {
+        let _ = (i, rho, u_wall);
+        0.0
+    }
+
     /// A: wetted share of a link \[F1\]. `masses()`: m of the two cells, for the wrong form that uses them.
     #[inline(always)]
     fn wetted_share(
@@ -155,6 +162,10 @@ impl<R: Rheology, C: Collision> Physics for Standard<R, C> {
     #[inline(always)]
     fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
         self.collision.wanted_odd_excess(omega)
+    }
+
+    fn wall_cubic(&self, i: usize, rho: f64, u_wall: &[f64; 3]) -> f64 {
+        if self.collision.has_cubic_equilibrium() { bounce_back::cubic(i, rho, u_wall) } else { 0.0 }
     }
 
     #[inline(always)]

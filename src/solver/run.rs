@@ -2,6 +2,8 @@
 
 use super::fingerprint::Fingerprint;
 use super::setup::Setup;
+use crate::coupling::Immersed;
+use crate::dem::DemError;
 use crate::lattice::moments::{Moments, deviator, magnitude};
 use crate::rheology::relaxation::shear_rate_of_omega;
 
@@ -60,6 +62,16 @@ pub trait Run {
     /// Bytes held by this run's arrays.
     fn allocated_bytes(&self) -> u64;
 
+    /// The grains in the fluid; `None` without any.
+    fn grains(&self) -> Option<&Immersed> {
+        None
+    }
+
+    /// The same, to be told new motions.
+    fn grains_mut(&mut self) -> Option<&mut Immersed> {
+        None
+    }
+
     /// Seconds spent in each pass since the start; empty where a backend does not keep them. For people:
     /// results never depend on them.
     fn pass_seconds(&self) -> Vec<(&'static str, f64)> {
@@ -92,7 +104,7 @@ pub struct Ledger {
     pub outflow: f64,
     /// Mass that came in at moving walls (rounding, or a wall that moves along its normal).
     pub from_walls: f64,
-    /// (mass + outflow − from_walls − initial)/initial.
+    /// (mass + outflow − from_walls − mass_from_grains − initial)/initial.
     pub mass_residual: f64,
     /// Momentum Σ c f of all fluid cells now, populations f − w.
     pub momentum: [f64; 3],
@@ -106,6 +118,11 @@ pub struct Ledger {
     pub from_gas: [f64; 3],
     /// What cells brought in by becoming fluid, less what they took by becoming gas.
     pub from_conversions: [f64; 3],
+    /// Mass that came in from grains: over their surfaces and with cells they gave free, less what they took by
+    /// covering cells.
+    pub mass_from_grains: f64,
+    /// What grains brought in so far, the same way.
+    pub from_grains: [f64; 3],
     /// Largest component of momentum − Σ of the above, absolute.
     pub momentum_residual: f64,
     /// Liquid cells now.
@@ -213,6 +230,9 @@ pub enum StartError {
     /// Nothing to compute.
     #[error("the box has no fluid cell")]
     NoFluid,
+    /// The grains cannot start.
+    #[error("grains: {0}")]
+    Grains(DemError),
     /// A fill outside 0..1.
     #[error("cell {cell} has a fill of {found}; allowed: 0 to 1")]
     Fill { cell: usize, found: f64 },
@@ -253,6 +273,20 @@ pub enum Runaway {
     NoDensity {
         /// Density found (lattice units, reference 1).
         density: f64,
+    },
+    /// The grains could not go on; [`Immersed::failure`] says why.
+    Grains {
+        /// The first grain it happened to.
+        grain: u32,
+    },
+    /// A grain is faster than the speed limit (lattice units).
+    GrainTooFast {
+        /// Its number.
+        grain: u32,
+        /// Its speed.
+        speed: f64,
+        /// The limit of the setup.
+        limit: f64,
     },
     /// Faster than the speed limit (lattice units).
     TooFast {

@@ -7,6 +7,7 @@
 use std::sync::Arc;
 
 use crate::collision::CollisionChoice;
+use crate::coupling::Suspension;
 use crate::rheology::Law;
 
 /// What happens to populations that would arrive through one face of the box.
@@ -237,6 +238,8 @@ pub struct Setup {
     pub initial: Option<InitialFlow>,
     /// The free surface; `None`: fluid fills every cell that is not solid.
     pub free_surface: Option<FreeSurface>,
+    /// Grains in the fluid.
+    pub grains: Option<Arc<Suspension>>,
     /// Whether the force on every numbered solid is recorded \[C7\].
     pub loads: bool,
     /// A run stops when a cell is faster than this (lattice units) or not finite.
@@ -265,6 +268,7 @@ impl Setup {
             force: BodyForce::Constant([0.0; 3]),
             initial: None,
             free_surface: None,
+            grains: None,
             loads: false,
             speed_limit: 0.4,
             precision: Precision::Double,

@@ -52,7 +52,7 @@ impl Backend for Plain {
             };
         }
         match setup.collision {
-            CollisionChoice::Bgk if setup.free_surface.is_none() => own_loop!(Bgk, closed),
+            CollisionChoice::Bgk if !with_surface(setup) => own_loop!(Bgk, closed),
             CollisionChoice::CentralMoment(odd) => own_loop!(CentralMoment { odd }, boxed),
             _ => shared_loop(setup),
         }
@@ -73,10 +73,12 @@ fn shared_loop(setup: &Setup) -> Result<Box<dyn Run>, StartError> {
 }
 
 fn boxed<P: Physics>(setup: &Setup, physics: P) -> Result<Box<dyn Run>, StartError> {
-    match setup.free_surface {
-        Some(_) => surface::boxed(setup, physics),
-        None => closed(setup, physics),
-    }
+    if with_surface(setup) { surface::boxed(setup, physics) } else { closed(setup, physics) }
+}
+
+/// Grains are coupled to the run that knows kinds of cells, with or without gas.
+fn with_surface(setup: &Setup) -> bool {
+    setup.free_surface.is_some() || setup.grains.is_some()
 }
 
 fn closed<P: Physics>(setup: &Setup, physics: P) -> Result<Box<dyn Run>, StartError> {

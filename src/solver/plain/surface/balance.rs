@@ -52,6 +52,12 @@ impl<P: Physics> SurfaceRun<P> {
             let mut own = CellEntries::default();
             for i in 1..Q {
                 let source = self.links.source(cell, i);
+                // Links to grains are booked where they are returned.
+                if matches!(source, crate::boundary::links::Source::Cell { cell, .. }
+                    if self.kinds[cell as usize] == Kind::Solid)
+                {
+                    continue;
+                }
                 let gas = matches!(source, crate::boundary::links::Source::Cell { cell, .. }
                     if !self.kinds[cell as usize].is_fluid());
                 let crossing = Crossing {

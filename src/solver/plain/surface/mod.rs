@@ -5,6 +5,7 @@
 
 mod balance;
 mod convert;
+mod grains;
 mod passes;
 mod report;
 
@@ -13,6 +14,7 @@ use std::collections::BTreeMap;
 use super::cell::Cell;
 use super::run::starting_omega;
 use crate::boundary::links::Links;
+use crate::coupling::Immersed;
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
@@ -57,6 +59,8 @@ pub struct SurfaceRun<P> {
     special: Vec<u32>,
     books: Books,
     loads: Vec<Load>,
+    /// Grains in the fluid; only absent while they look at the cells.
+    grains: Option<Box<Immersed>>,
     step: u64,
     pool: Option<rayon::ThreadPool>,
 }
@@ -70,7 +74,11 @@ impl<P: Physics> SurfaceRun<P> {
     pub fn start(setup: &Setup, physics: P) -> Result<Self, StartError> {
         crate::solver::check::check(setup)?;
         let unsupported = |feature| StartError::Unsupported { backend: "plain", feature };
-        let surface = setup.free_surface.clone().ok_or(unsupported("a surface run without a surface"))?;
+        let surface = match (&setup.free_surface, &setup.grains) {
+            (Some(surface), _) => surface.clone(),
+            (None, Some(_)) => FreeSurface::new(vec![1.0; setup.cells()]),
+            (None, None) => return Err(unsupported("a surface run without a surface")),
+        };
         if setup.fluids.len() > 1 {
             return Err(unsupported("several fluids below a free surface"));
         }
@@ -89,8 +97,14 @@ impl<P: Physics> SurfaceRun<P> {
             })
             .collect();
         let force = setup.force.at(0);
+        let grains = match &setup.grains {
+            Some(grains) => Some(Box::new(Immersed::new(setup, grains).map_err(StartError::Grains)?)),
+            None => None,
+        };
         let excess = match setup.initial {
             Some(_) => Vec::new(),
+            // Without a surface nothing says where the pressure is that of the gas.
+            None if setup.free_surface.is_none() => vec![0.0; cells],
             None => hydrostatic::density_excess(setup.extents, &kinds, &fill, &force),
         };
         let pool = (setup.threads > 1 && cells > passes::CHUNK)
@@ -116,10 +130,12 @@ impl<P: Physics> SurfaceRun<P> {
             special: Vec::new(),
             books: Books::default(),
             loads: Vec::new(),
+            grains,
             step: 0,
             pool,
             surface,
         };
+        let force = run.body_force();
         run.fill_in(&excess, &force);
         Ok(run)
     }
@@ -154,6 +170,7 @@ impl<P: Physics> SurfaceRun<P> {
                 self.mass[cell] = self.fill[cell] * (1.0 + density_excess(&self.f[cell]));
             }
         }
+        self.start_grains();
         self.list_special();
         self.open_books();
     }
@@ -171,15 +188,17 @@ impl<P: Physics> SurfaceRun<P> {
 
     /// One time step.
     fn advance_one(&mut self) -> Result<(), Stopped> {
-        let force = self.setup.force.at(self.step);
+        let force = self.body_force();
         self.wall_pass(&force);
         self.collide_pass(&force)?;
         if self.physics.wants_before() {
             self.before.clone_from(&self.f);
         }
+        self.exchange_with_grains();
         self.stream_pass();
         self.book_links();
         self.convert(&force);
+        self.move_grains()?;
         self.step += 1;
         self.close_books()
     }

@@ -281,7 +281,14 @@ impl<P: Physics> SurfaceRun<P> {
                     let (from, direction) = (from as usize, usize::from(direction));
                     let kind = self.kinds[from];
                     match kind {
-                        Kind::Gas | Kind::Solid => {
+                        // Covered by a grain: what its surface returns has been put there.
+                        Kind::Solid => {
+                            touches |= touch::WALL;
+                            arrived[i] = self.post[from][direction];
+                            gained[i] = self.fill[cell] * (arrived[i] - own[out]);
+                            continue;
+                        }
+                        Kind::Gas => {
                             touches |= touch::GAS;
                             let behind = || {
                                 let behind = self.links.neighbour_along(cell, out);

@@ -1,6 +1,7 @@
 //! What a free-surface run tells about itself.
 
 use super::SurfaceRun;
+use crate::coupling::Immersed;
 use crate::free_surface::Kind;
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
@@ -38,7 +39,7 @@ impl<P: Physics> Run for SurfaceRun<P> {
         let mut fields = Fields::empty(self.f.len());
         fields.fill = vec![0.0; self.f.len()];
         fields.kind = self.kinds.iter().map(|&kind| kind as u8).collect();
-        let force = self.setup.force.at(self.step);
+        let force = self.body_force();
         for cell in self.fluid_in_order() {
             let state = self.state(cell, &self.force_at(cell, &force));
             fields.record(cell, &state.m, state.omega);
@@ -54,7 +55,7 @@ impl<P: Physics> Run for SurfaceRun<P> {
 
     /// Mass-weighted: Σ(mass) less the number of liquid cells, Σ m u, Σ ½ m u².
     fn totals(&self) -> Totals {
-        let force = self.setup.force.at(self.step);
+        let force = self.body_force();
         let mut totals = Totals { mass_excess: 0.0, momentum: [0.0; 3], kinetic_energy: 0.0 };
         for cell in self.fluid_in_order() {
             let m = moments(&self.f[cell], &self.force_at(cell, &force));
@@ -70,7 +71,7 @@ impl<P: Physics> Run for SurfaceRun<P> {
     }
 
     fn fingerprint(&self) -> Fingerprint {
-        let force = self.setup.force.at(self.step);
+        let force = self.body_force();
         let mut hasher = Hasher::default();
         let mut max_speed2 = 0.0_f64;
         for cell in self.fluid_in_order() {
@@ -90,6 +91,9 @@ impl<P: Physics> Run for SurfaceRun<P> {
             for a in acceleration.chain(self.previous_omega.get(cell)) {
                 hasher.number(*a);
             }
+        }
+        if let Some(grains) = &self.grains {
+            grains.hash(&mut hasher);
         }
         let totals = self.totals();
         Fingerprint {
@@ -113,6 +117,14 @@ impl<P: Physics> Run for SurfaceRun<P> {
         self.loads.clone()
     }
 
+    fn grains(&self) -> Option<&Immersed> {
+        self.grains.as_deref()
+    }
+
+    fn grains_mut(&mut self) -> Option<&mut Immersed> {
+        self.grains.as_deref_mut()
+    }
+
     fn allocated_bytes(&self) -> u64 {
         let populations =
             (self.f.len() + self.post.len() + self.before.len() + self.corrections.len()) * size_of::<Cell>();
@@ -122,6 +134,7 @@ impl<P: Physics> Run for SurfaceRun<P> {
             (self.mass.len() + self.fill.len() + self.previous_omega.len() + self.surface.fill.len())
                 * size_of::<f64>();
         let marks = self.kinds.len() + self.touches.len() + self.setup.solids.len();
-        (populations + vectors + numbers + marks) as u64 + self.links.bytes()
+        let grains = self.grains.as_ref().map_or(0, |grains| grains.bytes());
+        (populations + vectors + numbers + marks) as u64 + self.links.bytes() + grains
     }
 }

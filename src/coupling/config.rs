@@ -1,0 +1,134 @@
+//! What a run with grains is asked to do.
+
+use crate::dem;
+use crate::units::Units;
+
+/// How a grain's surface returns populations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GrainWall {
+    /// Half-way bounce-back \[B1\]: the surface is a staircase half-way between fluid and covered cells.
+    #[default]
+    HalfWay,
+    /// Central linear interpolation at the true place of the surface; half-way where the cell behind is not fluid.
+    ///
+    /// # Source
+    /// Ginzburg, Verhaeghe & d'Humières 2008, Commun. Comput. Phys. 3, 427 (CLI).
+    CentralLinear,
+}
+
+/// What a cell that a grain gives free starts from \[C3\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GrainRefill {
+    /// Equilibrium at the mean density of the fluid neighbours and the velocity of the grain's surface there, with
+    /// the mean non-equilibrium part of those neighbours.
+    #[default]
+    WithStress,
+    /// The same without non-equilibrium part.
+    Equilibrium,
+    /// Equilibrium at the mean density and the mean velocity of the fluid neighbours.
+    Neighbours,
+}
+
+/// Which mass a cell that a grain gives free gets \[C3\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RefillMass {
+    /// The mean density of its fluid neighbours, and what the grain has taken beyond the reference density and not
+    /// given back: what goes into grains comes out of them, and the mass of the fluid does not drift.
+    #[default]
+    Neutral,
+    /// The mean density of its fluid neighbours.
+    Neighbours,
+}
+
+/// What is done about the difference between a grain's volume and that of the cells it covers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum VolumeRule {
+    /// The weight of the fluid that fits between the two volumes is added to the buoyancy, in proportion to the wet
+    /// part of the surface.
+    #[default]
+    Corrected,
+    /// Nothing: buoyancy is that of the covered cells.
+    Cells,
+}
+
+/// Lubrication forces in gaps that the lattice does not resolve \[C5\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lubrication {
+    /// h_c: gap below which they act, cells.
+    pub cutoff: f64,
+    /// Smallest gap that is counted, cells: roughness.
+    pub smallest_gap: f64,
+    /// Whether tangential forces act too.
+    pub tangential: bool,
+}
+
+impl Default for Lubrication {
+    /// Two thirds of a cell for half-way links (Nguyen & Ladd 2002), a thousandth of a cell.
+    fn default() -> Self {
+        Self { cutoff: 2.0 / 3.0, smallest_gap: 1e-3, tangential: true }
+    }
+}
+
+/// Wrong forms on trial.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mutant {
+    /// The right form.
+    #[default]
+    None,
+    /// Wall velocity with r × ω (004 Eq 3.38).
+    ReversedProduct,
+    /// Lubrication without π (000 Eq 15).
+    LubricationWithoutPi,
+    /// Mass of covered cells is forgotten.
+    CoveredMassDropped,
+}
+
+/// Grains in a fluid.
+#[derive(Clone, Debug)]
+pub struct Suspension {
+    /// The grains, their contacts, their walls and gravity, SI units. Its time step is set by `sub_steps`.
+    pub dem: dem::Setup,
+    /// Scales between the grains' SI units and the lattice.
+    pub units: Units,
+    /// Steps of the grains in one step of the fluid \[C4\].
+    pub sub_steps: u32,
+    /// How surfaces return populations.
+    pub wall: GrainWall,
+    /// What uncovered cells start from.
+    pub refill: GrainRefill,
+    /// And with which mass.
+    pub refill_mass: RefillMass,
+    /// Staircase buoyancy.
+    pub volume: VolumeRule,
+    /// −∇P, lattice units: a pressure gradient that is not in the computed pressure, for instance that of fluid at
+    /// rest in a closed box whose fluid is computed without weight. Acts on the volume of the grains.
+    pub pressure_gradient: [f64; 3],
+    /// Per axis: a uniform pressure gradient keeps the sum of all forces on fluid and grains at zero, as in a closed
+    /// vessel far larger than the periodic box.
+    pub balanced: [bool; 3],
+    /// Lubrication; `None`: without.
+    pub lubrication: Option<Lubrication>,
+    /// Wrong physics for tests.
+    #[doc(hidden)]
+    pub mutant: Mutant,
+}
+
+impl Suspension {
+    /// Default rules for some grains; one step of the grains per step of the fluid.
+    #[must_use]
+    pub fn new(dem: dem::Setup, units: Units) -> Self {
+        Self {
+            dem,
+            units,
+            sub_steps: 1,
+            wall: GrainWall::default(),
+            refill: GrainRefill::default(),
+            refill_mass: RefillMass::default(),
+            volume: VolumeRule::default(),
+            pressure_gradient: [0.0; 3],
+            balanced: [false; 3],
+            lubrication: Some(Lubrication::default()),
+            mutant: Mutant::None,
+        }
+    }
+}

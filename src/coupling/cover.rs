@@ -1,0 +1,120 @@
+//! Cells that grains take and give back \[C3\]: mass and momentum go through the ledger.
+
+use super::config::Mutant;
+use super::coverage::Changes;
+use super::host::{Host, Uncovered};
+use super::immersed::Immersed;
+use crate::boundary::links::Source;
+use crate::free_surface::Kind;
+use crate::lattice::moments::{density_excess, momentum};
+use crate::lattice::{Q, W};
+use std::collections::BTreeMap;
+
+impl Immersed {
+    /// Takes newly covered cells out of the fluid and gives freed ones back.
+    pub(super) fn apply<H: Host>(&mut self, host: &mut H, changes: &Changes) {
+        for &(cell, grain) in &changes.covered {
+            let cell = cell as usize;
+            let kind = host.kind(cell);
+            let mut mass = host.take_parked(cell);
+            let mut taken = [0.0; 3];
+            if kind.is_fluid() {
+                let f = host.arrived(cell);
+                taken = momentum(&f);
+                let rho = 1.0 + density_excess(&f);
+                mass += if kind == Kind::Liquid { rho } else { host.interface_mass(cell) };
+                // Of a mass m the volume is m/ρ.
+                self.owed[grain as usize] += mass - mass / rho;
+            }
+            host.cover(cell);
+            if self.config.mutant != Mutant::CoveredMassDropped {
+                host.book(-mass, &taken.map(|p| -p));
+            }
+            self.books.cover(mass, &taken);
+        }
+        if changes.freed.is_empty() {
+            return;
+        }
+        let kinds = self.kinds_of_freed(host, changes);
+        let mut volume: BTreeMap<u32, f64> = BTreeMap::new();
+        for (&(_, grain), (_, fill)) in changes.freed.iter().zip(&kinds) {
+            *volume.entry(grain).or_insert(0.0) += fill;
+        }
+        let cells: Vec<(u32, u32, f64, Uncovered)> = changes
+            .freed
+            .iter()
+            .zip(kinds)
+            .map(|(&(cell, grain), (kind, fill))| {
+                let share = self.owed[grain as usize] / volume[&grain];
+                (cell, grain, fill, self.uncovered(host, cell as usize, grain as usize, (kind, fill), share))
+            })
+            .collect();
+        for (cell, grain, volume, to) in &cells {
+            let fill = match to.kind {
+                Kind::Liquid => 1.0 + density_excess(&to.populations),
+                Kind::Interface => to.mass,
+                Kind::Gas | Kind::Solid => 0.0,
+            };
+            self.owed[*grain as usize] -= fill - volume;
+            let given = momentum(&to.populations);
+            host.uncover(*cell as usize, to);
+            host.book(fill, &given);
+            self.books.free(fill, &given);
+        }
+    }
+
+    /// What freed cells become, one after the other: liquid where no gas is beside them, interface where fluid is
+    /// too, else gas. Liquid never touches gas that way.
+    fn kinds_of_freed<H: Host>(&self, host: &H, changes: &Changes) -> Vec<(Kind, f64)> {
+        let mut decided: BTreeMap<u32, (Kind, f64)> = BTreeMap::new();
+        for &(cell, _) in &changes.freed {
+            let (mut gas, mut fluid) = (0, 0);
+            let (mut wet, mut weight) = (0.0, 0.0);
+            for i in 1..Q {
+                let (kind, fill) = match self.shape.source(host.setup(), cell as usize, i) {
+                    Source::Cell { cell: n, .. } => match decided.get(&n) {
+                        Some(known) => *known,
+                        None => match host.kind(n as usize) {
+                            Kind::Interface => (Kind::Interface, host.fill(n as usize)),
+                            kind => (kind, if kind == Kind::Liquid { 1.0 } else { 0.0 }),
+                        },
+                    },
+                    Source::Open => (Kind::Gas, 0.0),
+                    Source::Wall { .. } => continue,
+                };
+                match kind {
+                    Kind::Solid => continue,
+                    Kind::Gas => gas += 1,
+                    Kind::Interface | Kind::Liquid => fluid += 1,
+                }
+                wet += W[i] * fill;
+                weight += W[i];
+            }
+            let verdict = match (self.with_gas, gas, fluid) {
+                (false, _, _) => (Kind::Liquid, 1.0),
+                (true, 0, 1..) => (Kind::Liquid, 1.0),
+                (true, 1.., 1..) => (Kind::Interface, wet / weight),
+                (true, _, _) => (Kind::Gas, 0.0),
+            };
+            decided.insert(cell, verdict);
+        }
+        changes.freed.iter().map(|(cell, _)| decided[cell]).collect()
+    }
+
+    /// `share`: ρ − 1 that would settle what the grain owes.
+    fn uncovered<H: Host>(
+        &self,
+        host: &H,
+        cell: usize,
+        grain: usize,
+        (kind, fill): (Kind, f64),
+        share: f64,
+    ) -> Uncovered {
+        if !kind.is_fluid() {
+            return Uncovered { kind, populations: [0.0; Q], mass: 0.0 };
+        }
+        let populations = self.refill(host, cell, grain, share);
+        let mass = if kind == Kind::Interface { fill * (1.0 + density_excess(&populations)) } else { 0.0 };
+        Uncovered { kind, populations, mass }
+    }
+}

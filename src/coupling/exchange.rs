@@ -1,0 +1,398 @@
+//! What a grain's surface returns to the fluid, and the force and torque that it takes from it \[C1\] \[C2\].
+
+use super::L3;
+use super::config::{GrainWall, Mutant, VolumeRule};
+use super::coverage::NOBODY;
+use super::host::Host;
+use super::immersed::{BodyLoad, Immersed};
+use super::link::{Ball, Link, cross, cut};
+use super::predict::{Friction, middle};
+use super::pressure::{Fit, Samples};
+use crate::boundary::bounce_back::surface_velocity;
+use crate::boundary::links::Source;
+use crate::free_surface::Kind;
+use crate::lattice::moments::density_excess;
+use crate::lattice::{C, W};
+use crate::solver::physics::Physics;
+use rayon::prelude::*;
+
+/// A link whose outer cell holds fluid.
+#[derive(Clone, Copy, Debug)]
+struct Open {
+    link: Link,
+    /// From the centre of the grain to where the link meets its surface.
+    arm: L3,
+    /// From the centre of the grain to the middle of the link.
+    middle: L3,
+    /// f_out* that leaves.
+    leaving: f64,
+    /// What comes back from a surface at rest.
+    base: f64,
+    /// Share of 6 w ρ c·u_w that a moving surface adds.
+    share: f64,
+    /// ρ of the cell.
+    rho: f64,
+    /// Wet share of the cell: 1 in liquid, φ in interface.
+    wet: f64,
+}
+
+/// What the links of one grain say before its velocity is known.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Gathered {
+    open: Vec<Open>,
+    friction: Friction,
+    /// Around the grain; only where a part of its surface is blocked.
+    fit: Option<Fit>,
+    /// Links to gas: their middle, from the centre of the grain, and direction.
+    dry: Vec<(L3, u8)>,
+    blocked: bool,
+}
+
+/// What goes to the cells and to the books.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Returned {
+    /// (covered cell, direction, value).
+    pub values: Vec<(u32, u8, f64)>,
+    pub load: BodyLoad,
+    /// Mass that came into the fluid over links.
+    pub mass: f64,
+    /// The same less that of the volume which the surface displaces at the reference density.
+    pub excess: f64,
+    /// Momentum that came into the fluid over links.
+    pub momentum: L3,
+}
+
+impl Immersed {
+    /// Returns populations from all surfaces and finds the forces on all grains; between collision and streaming.
+    pub fn exchange<H: Host>(&mut self, host: &mut H) {
+        let force = host.setup().force.at(host.step_number());
+        let returned = {
+            let (this, host) = (&*self, &*host);
+            host.install(|| {
+                let all = 0..this.grains();
+                let gathered: Vec<Gathered> =
+                    all.clone().into_par_iter().map(|grain| this.gather(host, grain)).collect();
+                all.into_par_iter()
+                    .map(|grain| this.answer(host, grain, &gathered, &force))
+                    .collect::<Vec<Returned>>()
+            })
+        };
+        for (grain, own) in returned.into_iter().enumerate() {
+            for &(cell, i, value) in &own.values {
+                host.put(cell as usize, usize::from(i), value);
+            }
+            host.book(own.mass, &own.momentum);
+            self.books.enter_links(&own);
+            self.loads[grain] = own.load;
+            self.owed[grain] -= own.excess;
+        }
+    }
+
+    /// First look at the links of a grain.
+    fn gather<H: Host>(&self, host: &H, grain: usize) -> Gathered {
+        let cover = self.coverage.of(grain);
+        let mut found = Gathered { open: Vec::with_capacity(cover.links.len()), ..Gathered::default() };
+        let balls = self.balls(grain);
+        let centre = self.centre(grain);
+        found.blocked = !cover.blocked.is_empty();
+        let mut samples = Samples::default();
+        let mut own: Option<(u32, f64, L3, f64)> = None;
+        for link in &cover.links {
+            let cell = link.cell as usize;
+            let kind = host.kind(cell);
+            if !kind.is_fluid() {
+                if kind == Kind::Gas {
+                    let r = self.shape.apart(&self.shape.centre(cell), &centre);
+                    found.dry.push((half_way(&r, usize::from(link.out)), link.out));
+                }
+                found.blocked |= kind == Kind::Solid && self.coverage.owner(cell) != NOBODY;
+                continue;
+            }
+            // Links are in order of their cell: what belongs to the cell is found once.
+            let (rho, r, wet) = match own {
+                Some((known, rho, r, wet)) if known == link.cell => (rho, r, wet),
+                _ => {
+                    let rho = 1.0 + density_excess(&host.after(cell));
+                    let r = self.shape.apart(&self.shape.centre(cell), &centre);
+                    let wet = if kind == Kind::Liquid { 1.0 } else { host.fill(cell) };
+                    samples.add(&r, rho - 1.0);
+                    own = Some((link.cell, rho, r, wet));
+                    (rho, r, wet)
+                }
+            };
+            let open = self.look(host, link, &balls, (rho, r, wet));
+            found.open.push(open);
+        }
+        for open in &found.open {
+            let out = usize::from(open.link.out);
+            let c = C[out].map(f64::from);
+            let turn = cross(&open.arm, &c);
+            let v = [c[0], c[1], c[2], turn[0], turn[1], turn[2]];
+            found.friction.add(&v, open.leaving + open.base, 6.0 * W[out] * open.rho * open.share);
+        }
+        if found.blocked {
+            found.fit = samples.fit();
+        }
+        found
+    }
+
+    /// One link with the surface at rest.
+    fn look<H: Host>(&self, host: &H, link: &Link, balls: &[Ball], (rho, r, wet): (f64, L3, f64)) -> Open {
+        let out = usize::from(link.out);
+        let leaving = host.after_one(link.cell as usize, out);
+        let c = C[out].map(f64::from);
+        let middle = half_way(&r, out);
+        let half = Open { link: *link, arm: middle, middle, leaving, base: leaving, share: 1.0, rho, wet };
+        if self.config.wall == GrainWall::HalfWay {
+            return half;
+        }
+        // The cell behind, straight along the link.
+        let behind = match self.shape.source(host.setup(), link.cell as usize, out) {
+            Source::Cell { cell, direction } if usize::from(direction) == out => cell as usize,
+            _ => return half,
+        };
+        if !host.kind(behind).is_fluid() {
+            return half;
+        }
+        let here = self.shape.centre(link.cell as usize);
+        let q = cut(balls.iter().map(|ball| (self.shape.apart(&here, &ball.centre), ball.radius)), out);
+        let kappa = (1.0 - 2.0 * q) / (1.0 + 2.0 * q);
+        let (from_behind, returning) =
+            (host.after_one(behind, out), host.after_one(link.cell as usize, usize::from(link.slot)));
+        Open {
+            arm: std::array::from_fn(|a| r[a] + q * c[a]),
+            base: leaving + kappa * (from_behind - returning),
+            share: 2.0 / (1.0 + 2.0 * q),
+            ..half
+        }
+    }
+
+    /// Velocity of the surface, populations returned, force and torque.
+    fn answer<H: Host>(&self, host: &H, grain: usize, all: &[Gathered], force: &L3) -> Returned {
+        let own = &all[grain];
+        let motion = self.motion(grain);
+        let held = self.blocked_force(host, grain, all);
+        let mut rest = self.rest_force(grain, own, force);
+        for a in 0..6 {
+            rest[a] += held[a];
+        }
+        let w = if self.is_driven(grain) {
+            motion
+        } else {
+            let mut other = rest;
+            let weight = self.weight(grain);
+            for a in 0..3 {
+                other[a] += weight[a];
+            }
+            let links: [f64; 6] = std::array::from_fn(|a| other[a] + self.loads[grain].links[a]);
+            let contact = self.expected_contact(grain, &links);
+            for a in 0..6 {
+                other[a] += contact[a];
+            }
+            middle(&own.friction, self.mass(grain), &self.inertia(grain), &motion, &other)
+        };
+        let mut returned = Returned { values: Vec::with_capacity(own.open.len()), ..Returned::default() };
+        let mut links = [0.0; 6];
+        let leak = if self.config.wall == GrainWall::HalfWay && !own.blocked {
+            0.0
+        } else {
+            self.leak(host, own, &w)
+        };
+        for open in &own.open {
+            self.close(host, open, &w, leak, &mut links, &mut returned);
+        }
+        returned.excess -= self.displaced(host, own, &w);
+        returned.load = BodyLoad { links, held, rest, wet_links: own.open.len() as u32 };
+        returned
+    }
+
+    /// One link with the velocity of the surface \[B1\], force and torque of the link \[C2\].
+    ///
+    /// The force is that of the momentum exchanged relative to the moving surface: what the surface gives to the
+    /// fluid as mass keeps its own velocity and pushes nobody.
+    ///
+    /// # Source
+    /// Wen, Zhang, Tu, Wang & Fang 2014, J. Comput. Phys. 266, 161 (Galilean invariant momentum exchange), with
+    /// populations f − w: the pressure of the gas acts on all sides alike and drops out.
+    fn close<H: Host>(
+        &self,
+        host: &H,
+        open: &Open,
+        w: &[f64; 6],
+        leak: f64,
+        links: &mut [f64; 6],
+        returned: &mut Returned,
+    ) {
+        let out = usize::from(open.link.out);
+        let (u, moving) = self.moving(host, (&open.arm, out), open.rho, w);
+        let value = host.stored((open.base + open.share * moving) - W[out] * leak);
+        returned.values.push((open.link.covered, open.link.slot, value));
+        let (given, taken) = (open.leaving + value, open.leaving - value);
+        let c = C[out].map(f64::from);
+        let push: L3 = std::array::from_fn(|a| c[a] * given - u[a] * taken);
+        let turn = cross(&open.arm, &push);
+        for a in 0..3 {
+            links[a] += push[a];
+            links[a + 3] += turn[a];
+            returned.momentum[a] -= c[a] * given;
+        }
+        returned.mass -= open.wet * taken;
+        returned.excess -= open.wet * taken;
+    }
+
+    /// Velocity of the surface at a link, and what it adds to a half-way link \[B1\].
+    fn moving<H: Host>(&self, host: &H, (arm, out): (&L3, usize), rho: f64, w: &[f64; 6]) -> (L3, f64) {
+        let spin = match self.config.mutant {
+            Mutant::ReversedProduct => [-w[3], -w[4], -w[5]],
+            _ => [w[3], w[4], w[5]],
+        };
+        let u = surface_velocity([w[0], w[1], w[2]], spin, *arm);
+        let physics = host.physics();
+        (u, physics.wall(0.0, out, rho, &u) + physics.wall_cubic(out, rho, &u))
+    }
+
+    /// Mass per unit of weight that the open links must not return, so that the grain passes the mass that its
+    /// motion displaces and no more.
+    ///
+    /// Interpolated links return more or less than half-way links. And what the surface pushes away where a wall or
+    /// another grain leaves no cell has to come out beside: over a closed staircase the volumes pushed and pulled
+    /// cancel, so that those of all links but the blocked ones tell what is missing.
+    fn leak<H: Host>(&self, host: &H, own: &Gathered, w: &[f64; 6]) -> f64 {
+        let (mut excess, mut weight) = (0.0, 0.0);
+        for link in &own.open {
+            let out = usize::from(link.link.out);
+            let (_, straight) = self.moving(host, (&link.middle, out), link.rho, w);
+            if self.config.wall != GrainWall::HalfWay {
+                let (_, moving) = self.moving(host, (&link.arm, out), link.rho, w);
+                excess += link.wet * (((link.base - link.leaving) + link.share * moving) - straight);
+            }
+            if own.blocked {
+                excess += straight / link.rho;
+            }
+            weight += link.wet * W[out];
+        }
+        if own.blocked {
+            for (middle, out) in &own.dry {
+                excess += self.moving(host, (middle, usize::from(*out)), 1.0, w).1;
+            }
+        }
+        if weight > 0.0 { excess / weight } else { 0.0 }
+    }
+
+    /// Volume that the wet surface of a grain pushes into the fluid in this step: nothing where all of it is wet.
+    fn displaced<H: Host>(&self, host: &H, own: &Gathered, w: &[f64; 6]) -> f64 {
+        let wet = own.open.iter().filter(|link| link.wet < 1.0);
+        let part: f64 = wet
+            .map(|l| (1.0 - l.wet) * self.moving(host, (&l.middle, usize::from(l.link.out)), 1.0, w).1)
+            .sum();
+        let dry: f64 =
+            own.dry.iter().map(|(r, out)| self.moving(host, (r, usize::from(*out)), 1.0, w).1).sum();
+        -(part + dry)
+    }
+
+    /// Force and torque of the fluid that is pressed between a grain and a wall or another grain, too thin for a cell:
+    /// the pressure around the grain, continued. Between two grains the mean of the two, so that what one feels
+    /// the other feels too.
+    fn blocked_force<H: Host>(&self, host: &H, grain: usize, all: &[Gathered]) -> [f64; 6] {
+        let mut sum = [0.0; 6];
+        let own = &all[grain];
+        if !own.blocked {
+            return sum;
+        }
+        let cover = self.coverage.of(grain);
+        let centre = self.centre(grain);
+        // Below a free surface air comes in where the pressure would fall below that of the gas.
+        let with_gas = self.with_gas;
+        let mut press = |inward: usize, r: &L3, excess: f64| {
+            let excess = if with_gas && excess < 0.0 { 0.0 } else { excess };
+            let c = C[inward].map(f64::from);
+            let push = c.map(|c| c * (2.0 * W[inward] * excess));
+            let turn = cross(r, &push);
+            for a in 0..3 {
+                sum[a] += push[a];
+                sum[a + 3] += turn[a];
+            }
+        };
+        if let Some(fit) = own.fit {
+            for blocked in &cover.blocked {
+                let inward = usize::from(blocked.inward);
+                let r = self.shape.apart(&self.shape.centre(blocked.covered as usize), &centre);
+                let r: L3 = std::array::from_fn(|a| r[a] - 0.5 * f64::from(C[inward][a]));
+                press(inward, &r, fit.at(&r));
+            }
+        }
+        for link in &cover.links {
+            let cell = link.cell as usize;
+            let other = self.coverage.owner(cell);
+            if other == NOBODY || host.kind(cell) != Kind::Solid {
+                continue;
+            }
+            let inward = usize::from(link.out);
+            let middle: L3 = {
+                let at = self.shape.centre(cell);
+                std::array::from_fn(|a| at[a] + 0.5 * f64::from(C[inward][a]))
+            };
+            let r = self.shape.apart(&middle, &centre);
+            let r_other = self.shape.apart(&middle, &self.centre(other as usize));
+            let excess = match (own.fit, all[other as usize].fit) {
+                (Some(a), Some(b)) => 0.5 * (a.at(&r) + b.at(&r_other)),
+                (Some(a), None) => a.at(&r),
+                (None, Some(b)) => b.at(&r_other),
+                (None, None) => continue,
+            };
+            press(inward, &r, excess);
+        }
+        sum
+    }
+
+    /// Pressure gradients that the lattice does not carry, and the fluid between a grain's volume and its cells.
+    fn rest_force(&self, grain: usize, own: &Gathered, force: &L3) -> [f64; 6] {
+        let volume = self.volume(grain);
+        let mut sum = [0.0; 6];
+        for a in 0..3 {
+            sum[a] = volume * (self.config.pressure_gradient[a] + self.gradient[a]);
+        }
+        if self.config.volume == VolumeRule::Corrected {
+            let axis = strongest(force);
+            let wet = own.open.len() as f64;
+            let all = wet + own.dry.len() as f64;
+            if !self.shape.periodic[axis] && all > 0.0 {
+                let missing = volume - self.coverage.of(grain).cells.len() as f64;
+                sum[axis] -= missing * force[axis] * (wet / all);
+            }
+        }
+        sum
+    }
+
+    /// What contacts will do in this step: what they did in the last, but no more than what they have to hold.
+    fn expected_contact(&self, grain: usize, others: &[f64; 6]) -> [f64; 6] {
+        let last = &self.contact[grain];
+        let norm = |v: &[f64]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+        let mut expected = [0.0; 6];
+        for part in [0..3, 3..6] {
+            let (was, held) = (norm(&last[part.clone()]), norm(&others[part.clone()]));
+            let scale = if was > held && was > 0.0 { held / was } else { 1.0 };
+            for a in part {
+                expected[a] = last[a] * scale;
+            }
+        }
+        expected
+    }
+}
+
+/// Middle of a link that leaves the cell at `r` along c_out.
+#[inline]
+fn half_way(r: &L3, out: usize) -> L3 {
+    std::array::from_fn(|a| r[a] + 0.5 * f64::from(C[out][a]))
+}
+
+/// Axis of the largest component; the later of equals.
+fn strongest(force: &L3) -> usize {
+    let mut axis = 2;
+    for a in [1, 0] {
+        if force[a].abs() > force[axis].abs() {
+            axis = a;
+        }
+    }
+    axis
+}

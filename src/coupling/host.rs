@@ -1,0 +1,58 @@
+//! What the coupling needs from a backend.
+
+use crate::free_surface::Kind;
+use crate::lattice::Q;
+use crate::solver::physics::Physics;
+use crate::solver::setup::Setup;
+
+/// A cell that a grain has given free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uncovered {
+    /// Gas, interface or liquid.
+    pub kind: Kind,
+    /// Populations before the next collision, f − w; zero in gas.
+    pub populations: [f64; Q],
+    /// m of an interface cell.
+    pub mass: f64,
+}
+
+/// The cells of a run, by number in the box.
+pub trait Host: Sync {
+    /// The equations of one cell.
+    type Physics: Physics;
+
+    /// The set-up.
+    fn setup(&self) -> &Setup;
+    /// The equations.
+    fn physics(&self) -> &Self::Physics;
+    /// Steps taken so far.
+    fn step_number(&self) -> u64;
+    /// Kind of a cell; covered cells are solid.
+    fn kind(&self, cell: usize) -> Kind;
+    /// φ of an interface cell before the exchange of this step.
+    fn fill(&self, cell: usize) -> f64;
+    /// m of an interface cell.
+    fn interface_mass(&self, cell: usize) -> f64;
+    /// Populations after the last collision; the cell is fluid or was at that collision.
+    fn after(&self, cell: usize) -> [f64; Q];
+    /// A number as a population is kept.
+    fn stored(&self, value: f64) -> f64;
+    /// One of them, of any cell that [`Host::after`] may be asked for.
+    fn after_one(&self, cell: usize, i: usize) -> f64;
+    /// Puts what streaming will take out of a covered cell.
+    fn put(&mut self, cell: usize, i: usize, value: f64);
+    /// Populations of a fluid cell before the next collision.
+    fn arrived(&self, cell: usize) -> [f64; Q];
+    /// Fluid or gas becomes solid.
+    fn cover(&mut self, cell: usize);
+    /// A covered cell becomes something else.
+    fn uncover(&mut self, cell: usize, to: &Uncovered);
+    /// Takes the excess mass parked in a cell.
+    fn take_parked(&mut self, cell: usize) -> f64;
+    /// Books mass and momentum that came into the fluid from grains.
+    fn book(&mut self, mass: f64, momentum: &[f64; 3]);
+    /// Liquid and interface cells.
+    fn fluid_count(&self) -> u64;
+    /// Runs work on the backend's threads.
+    fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R;
+}

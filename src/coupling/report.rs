@@ -1,0 +1,121 @@
+//! What a coupled run tells about its grains.
+
+use super::L3;
+use super::exchange::Returned;
+use super::immersed::Immersed;
+use crate::free_surface::ledger::{Sum, VectorSum};
+use crate::solver::fingerprint::Hasher;
+
+/// Mass and momentum that went between fluid and grains, lattice units.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CouplingBooks {
+    link_mass: Sum,
+    covered_mass: Sum,
+    freed_mass: Sum,
+    link_momentum: VectorSum,
+    covered_momentum: VectorSum,
+    freed_momentum: VectorSum,
+    /// Cells covered and cells freed so far that held or got fluid.
+    pub covered: u64,
+    /// See `covered`.
+    pub freed: u64,
+}
+
+impl CouplingBooks {
+    pub(super) fn enter_links(&mut self, returned: &Returned) {
+        self.link_mass.add(returned.mass);
+        self.link_momentum.add(&returned.momentum);
+    }
+
+    pub(super) fn cover(&mut self, mass: f64, momentum: &L3) {
+        self.covered_mass.add(mass);
+        self.covered_momentum.add(momentum);
+        self.covered += u64::from(mass != 0.0);
+    }
+
+    pub(super) fn free(&mut self, mass: f64, momentum: &L3) {
+        self.freed_mass.add(mass);
+        self.freed_momentum.add(momentum);
+        self.freed += u64::from(mass != 0.0);
+    }
+
+    /// Mass: into the fluid over links, out of it into grains, back from them.
+    #[must_use]
+    pub fn masses(&self) -> [f64; 3] {
+        [self.link_mass.value(), self.covered_mass.value(), self.freed_mass.value()]
+    }
+
+    /// Momentum, in the same order.
+    #[must_use]
+    pub fn momenta(&self) -> [L3; 3] {
+        [self.link_momentum.value(), self.covered_momentum.value(), self.freed_momentum.value()]
+    }
+}
+
+/// Sums over all free grains, lattice units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GrainTotals {
+    /// Σ m.
+    pub mass: f64,
+    /// Σ m U.
+    pub momentum: L3,
+    /// Σ ½ m U² + ½ ω·Jω.
+    pub kinetic_energy: f64,
+}
+
+impl Immersed {
+    /// What went between fluid and grains so far.
+    #[must_use]
+    pub fn books(&self) -> &CouplingBooks {
+        &self.books
+    }
+
+    /// Sums over all free grains, in order.
+    #[must_use]
+    pub fn totals(&self) -> GrainTotals {
+        let mut totals = GrainTotals::default();
+        let bodies = self.dem.bodies();
+        let energy = self.config.units.rho0_kg_per_m3
+            * self.config.units.dx_m
+            * self.config.units.dx_m
+            * self.config.units.dx_m
+            * self.config.units.velocity_unit()
+            * self.config.units.velocity_unit();
+        for grain in (0..self.grains()).filter(|&grain| !self.is_driven(grain)) {
+            let (mass, w) = (self.mass(grain), self.motion(grain));
+            totals.mass += mass;
+            for a in 0..3 {
+                totals.momentum[a] += mass * w[a];
+            }
+            totals.kinetic_energy +=
+                (bodies.translational_energy(grain) + bodies.rotational_energy(grain)) / energy;
+        }
+        totals
+    }
+
+    /// Adds the state of the grains to a fingerprint.
+    pub fn hash(&self, hasher: &mut Hasher) {
+        let bodies = self.dem.bodies();
+        for i in 0..bodies.len() {
+            let vectors = [
+                &bodies.position[i],
+                &bodies.velocity[i],
+                &bodies.spin[i],
+                &bodies.force[i],
+                &bodies.torque[i],
+            ];
+            for v in vectors.into_iter().flat_map(|v| v.iter()) {
+                hasher.number(*v);
+            }
+            for q in bodies.orientation[i].coords.iter() {
+                hasher.number(*q);
+            }
+            for x in self.loads[i].total().iter().chain(&self.contact[i]) {
+                hasher.number(*x);
+            }
+            for cell in &self.coverage.of(i).cells {
+                hasher.number(f64::from(*cell));
+            }
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Grains in the fluid: the arrays of this backend for [`crate::coupling`].
+
+use super::SurfaceRun;
+use crate::coupling::{Host, Immersed, Uncovered};
+use crate::free_surface::Kind;
+use crate::lattice::Q;
+use crate::lattice::moments::moments;
+use crate::solver::physics::Physics;
+use crate::solver::plain::cell::Cell;
+use crate::solver::run::Stopped;
+use crate::solver::setup::{Setup, YieldTreatment};
+
+impl<P: Physics> SurfaceRun<P> {
+    /// Body force of this step, with the pressure gradient that balances the weight of grains.
+    pub(super) fn body_force(&self) -> [f64; 3] {
+        let force = self.setup.force.at(self.step);
+        match &self.grains {
+            Some(grains) => {
+                let gradient = grains.gradient();
+                std::array::from_fn(|a| force[a] + gradient[a])
+            }
+            None => force,
+        }
+    }
+
+    /// Runs `work` on the grains and the cells.
+    fn with_grains<R>(&mut self, work: impl FnOnce(&mut Immersed, &mut Self) -> R) -> Option<R> {
+        let mut grains = self.grains.take()?;
+        let result = work(&mut grains, self);
+        self.grains = Some(grains);
+        Some(result)
+    }
+
+    pub(super) fn start_grains(&mut self) {
+        self.with_grains(Immersed::start);
+    }
+
+    pub(super) fn exchange_with_grains(&mut self) {
+        self.with_grains(Immersed::exchange);
+    }
+
+    pub(super) fn move_grains(&mut self) -> Result<(), Stopped> {
+        let moved = self.with_grains(|grains, run| {
+            let before = *grains.books();
+            let moved = grains.advance(run);
+            (moved, before.covered != grains.books().covered || before.freed != grains.books().freed)
+        });
+        match moved {
+            Some((result, changed)) => {
+                if changed {
+                    self.list_special();
+                }
+                result
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+impl<P: Physics> Host for SurfaceRun<P> {
+    type Physics = P;
+
+    fn setup(&self) -> &Setup {
+        &self.setup
+    }
+    fn physics(&self) -> &P {
+        &self.physics
+    }
+    fn step_number(&self) -> u64 {
+        self.step
+    }
+    fn kind(&self, cell: usize) -> Kind {
+        self.kinds[cell]
+    }
+    fn fill(&self, cell: usize) -> f64 {
+        self.fill[cell]
+    }
+    fn interface_mass(&self, cell: usize) -> f64 {
+        self.mass[cell]
+    }
+    fn after(&self, cell: usize) -> Cell {
+        self.post[cell]
+    }
+    fn stored(&self, value: f64) -> f64 {
+        value
+    }
+    fn after_one(&self, cell: usize, i: usize) -> f64 {
+        self.post[cell][i]
+    }
+    fn put(&mut self, cell: usize, i: usize, value: f64) {
+        self.post[cell][i] = value;
+    }
+    fn arrived(&self, cell: usize) -> Cell {
+        self.f[cell]
+    }
+    fn cover(&mut self, cell: usize) {
+        self.kinds[cell] = Kind::Solid;
+        self.f[cell] = [0.0; Q];
+        (self.mass[cell], self.fill[cell]) = (0.0, 0.0);
+        self.velocity[cell] = [0.0; 3];
+    }
+    fn uncover(&mut self, cell: usize, to: &Uncovered) {
+        self.kinds[cell] = to.kind;
+        self.f[cell] = to.populations;
+        let m = moments(&to.populations, &[0.0; 3]);
+        self.mass[cell] = to.mass;
+        self.fill[cell] = match to.kind {
+            Kind::Liquid => 1.0,
+            Kind::Interface => to.mass / m.rho,
+            Kind::Gas | Kind::Solid => 0.0,
+        };
+        self.velocity[cell] = m.u;
+        if let (YieldTreatment::LaggedClamped { tau_max, .. }, true) =
+            (self.setup.yielding, to.kind.is_fluid())
+        {
+            self.previous_omega[cell] = 1.0 / tau_max;
+        }
+        if let Some(acceleration) = self.acceleration.get_mut(cell) {
+            *acceleration = [0.0; 3];
+        }
+        if let Some(before) = self.velocity_before.get_mut(cell) {
+            *before = m.u;
+        }
+    }
+    fn take_parked(&mut self, cell: usize) -> f64 {
+        self.parked.remove(&(cell as u32)).unwrap_or(0.0)
+    }
+    fn book(&mut self, mass: f64, momentum: &[f64; 3]) {
+        self.books.mass_from_grains.add(mass);
+        self.books.from_grains.add(momentum);
+    }
+    fn fluid_count(&self) -> u64 {
+        SurfaceRun::fluid_count(self)
+    }
+    fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+    }
+}
