@@ -11,6 +11,7 @@ pub mod bingham_sphere;
 pub mod cubic_array;
 pub mod floating;
 pub mod pair_lubrication;
+pub mod periodic_stokeslet;
 pub mod rotation;
 pub mod settling;
 pub mod single_sphere;

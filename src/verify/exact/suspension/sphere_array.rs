@@ -16,22 +16,8 @@
 use core::f64::consts::PI;
 
 use super::super::ExactError;
+use super::periodic_stokeslet::{PeriodicStokeslet, V3, dot};
 use super::within;
-
-/// A vector.
-type V3 = [f64; 3];
-
-/// Splitting parameter ξ of the Ewald sum, lattice spacing 1: both sums then fall below 1e-13.
-const SPLIT: f64 = 3.2;
-
-/// Real-space reach: erfc(ξr) and exp(−ξ²r²) are below 1e-13 beyond.
-const REACH: f64 = 1.75;
-
-/// Largest |k|²/4π²: exp(−k²/4ξ²) is below 1e-13 beyond.
-const SHELLS: usize = 31;
-
-/// Components 0 to 5 of those reciprocal vectors.
-const COMPONENTS: usize = 6;
 
 /// Solution for one concentration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +54,7 @@ pub fn simple_cubic(c: f64, degree: usize, points: usize) -> Result<CubicArray, 
     let tables: Vec<Vec<V3>> = sphere.iter().map(|n| values(&basis, n.normal)).collect();
     // One sixteenth of the sphere carries all of the test points: 0 <= azimuth <= pi/4, z > 0.
     let wedge: Vec<usize> = (0..sphere.len()).filter(|&i| sphere[i].in_wedge).collect();
-    let modes = modes();
+    let lattice = PeriodicStokeslet::new();
     // The velocity of each basis traction by R at each test point, tested by each basis function.
     let mut matrix = vec![0.0; count * count];
     let mut norm = vec![0.0; count];
@@ -76,7 +62,7 @@ pub fn simple_cubic(c: f64, degree: usize, points: usize) -> Result<CubicArray, 
         let mut velocity = vec![[0.0; 3]; count];
         for (j, source) in sphere.iter().enumerate() {
             let d: V3 = [0, 1, 2].map(|k| radius * (sphere[i].normal[k] - source.normal[k]));
-            let kernel = smooth_part(d, &modes);
+            let kernel = lattice.smooth_part(d);
             for (u, f) in velocity.iter_mut().zip(&tables[j]) {
                 for row in 0..3 {
                     u[row] += source.weight * dot(kernel[row], *f);
@@ -248,117 +234,6 @@ fn gauss(n: usize, i: usize) -> (f64, f64) {
         }
     }
     (x, 2.0 / ((1.0 - x * x) * slope * slope))
-}
-
-/// The reciprocal vectors 2π(±x, ±y, ±z) together: their size 8π (1 + k²/4ξ²) e^{−k²/4ξ²}/k² times their number.
-struct Mode {
-    index: [usize; 3],
-    size: f64,
-}
-
-/// Length of a reciprocal vector with a component of index n.
-fn wave_number(n: usize) -> f64 {
-    2.0 * PI * n as f64
-}
-
-fn modes() -> Vec<Mode> {
-    let mut out = Vec::new();
-    for x in 0..COMPONENTS {
-        for y in 0..COMPONENTS {
-            for z in 0..COMPONENTS {
-                let index = [x, y, z];
-                let square = x * x + y * y + z * z;
-                if square > 0 && square <= SHELLS {
-                    let number: f64 = index.iter().map(|&n| if n > 0 { 2.0 } else { 1.0 }).product();
-                    let k2 = 4.0 * PI * PI * square as f64;
-                    let ratio = k2 / (4.0 * SPLIT * SPLIT);
-                    out.push(Mode {
-                        index,
-                        size: number * 8.0 * PI * (1.0 + ratio) * libm::exp(-ratio) / k2,
-                    });
-                }
-            }
-        }
-    }
-    out
-}
-
-/// Σ_k over all reciprocal vectors of size (1 − kk/k²) cos k·d, by products of sines and cosines of each component.
-fn reciprocal_part(d: V3, modes: &[Mode]) -> [V3; 3] {
-    let mut cos = [[1.0; COMPONENTS]; 3];
-    let mut sin = [[0.0; COMPONENTS]; 3];
-    for i in 0..3 {
-        let angle = 2.0 * PI * d[i];
-        let (c, s) = (libm::cos(angle), libm::sin(angle));
-        for n in 1..COMPONENTS {
-            cos[i][n] = cos[i][n - 1] * c - sin[i][n - 1] * s;
-            sin[i][n] = sin[i][n - 1] * c + cos[i][n - 1] * s;
-        }
-    }
-    let mut out = [[0.0; 3]; 3];
-    for mode in modes {
-        let k = mode.index.map(wave_number);
-        let c: V3 = [0, 1, 2].map(|i| cos[i][mode.index[i]]);
-        let s: V3 = [0, 1, 2].map(|i| sin[i][mode.index[i]]);
-        let per = mode.size / dot(k, k);
-        let all = c[0] * c[1] * c[2];
-        for i in 0..3 {
-            let (j, l) = ((i + 1) % 3, (i + 2) % 3);
-            out[i][i] += all * (mode.size - per * k[i] * k[i]);
-            // The signs of the sines cancel those of the components.
-            let mixed = per * k[i] * k[j] * s[i] * s[j] * c[l];
-            out[i][j] += mixed;
-            out[j][i] += mixed;
-        }
-    }
-    out
-}
-
-/// 8πR(d): periodic Stokeslet less the free one, lattice spacing 1, |d| < 1.
-fn smooth_part(d: V3, modes: &[Mode]) -> [V3; 3] {
-    let root = 1.0 / PI.sqrt();
-    let mut out = reciprocal_part(d, modes);
-    let mut add = |x: V3, isotropic: f64, dyadic: f64| {
-        for i in 0..3 {
-            for j in 0..3 {
-                out[i][j] += dyadic * x[i] * x[j];
-            }
-            out[i][i] += isotropic;
-        }
-    };
-    for x in -2..=2_i32 {
-        for y in -2..=2_i32 {
-            for z in -2..=2_i32 {
-                let at = [d[0] + f64::from(x), d[1] + f64::from(y), d[2] + f64::from(z)];
-                let r2 = dot(at, at);
-                if (x, y, z) != (0, 0, 0) && r2 < REACH * REACH {
-                    let r = r2.sqrt();
-                    let gauss = 2.0 * SPLIT * root * libm::exp(-SPLIT * SPLIT * r2);
-                    let tail = libm::erfc(SPLIT * r) / r;
-                    add(at, tail - gauss, (tail + gauss) / r2);
-                }
-            }
-        }
-    }
-    // The cell itself: short-range part less the free Stokeslet.
-    let r2 = dot(d, d);
-    let z = SPLIT * r2.sqrt();
-    let gauss = 2.0 * SPLIT * root * libm::exp(-z * z);
-    if z > 0.02 {
-        let head = -libm::erf(z) * SPLIT / z;
-        add(d, head - gauss, (head + gauss) / r2);
-    } else {
-        // Power series of erf z / z: next terms below 1e-14.
-        let z2 = z * z;
-        let head = -2.0 * SPLIT * root * (1.0 - z2 / 3.0 + z2 * z2 / 10.0 - z2 * z2 * z2 / 42.0);
-        let dyadic = 2.0 * SPLIT * root * SPLIT * SPLIT * (-2.0 / 3.0 + 0.4 * z2 - z2 * z2 / 7.0);
-        add(d, head - gauss, dyadic);
-    }
-    out
-}
-
-fn dot(a: V3, b: V3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Mean of a matrix and its transpose (they differ by quadrature errors).
