@@ -2,10 +2,19 @@
 //!
 //! Convention: F = 6πμa U K(c), with U the superficial velocity (mean over the whole cell, spheres included) relative to
 //! the spheres and F the *whole* force on a sphere, which balances the mean pressure drop: F = G L³ with G the drop per
-//! length and L³ the cell. Two set-ups measure it: (a) fixed spheres, the fluid driven by a body force f per volume of
-//! *fluid only*: the surface force measured is then (1 − c) f L³, and K = f L³/(6πμaU); (b) spheres falling in a box
-//! with no net volume flux: each carries its weight less buoyancy, (4/3)πa³Δρg, and its speed is that over 6πμaK, so
-//! u/u₀ = 1/K.
+//! length and L³ the cell. Three set-ups measure it:
+//!
+//! (a) fixed spheres, the fluid driven by a body force f per volume of *fluid only*: it stands for a pressure drop
+//! G = f that does not push on the spheres, so that the surface force is (1 − c) f L³, and K = f L³/(6πμaU);
+//!
+//! (b) spheres falling in a box closed below, no net volume flux: the pressure carries the weight of the mixture,
+//! G = cΔρg beyond hydrostatics, the whole force is the weight less buoyancy in the *fluid*, W = (4/3)πa³Δρg, and
+//! u/u₀ = 1/K;
+//!
+//! (c) the same in a box periodic along gravity: no mean pressure drop can arise, a body force f = W/L³ per volume of
+//! fluid against gravity takes its place, and the force applied to each sphere must be the weight less buoyancy in the
+//! *mixture*, (1 − c) W. Momentum then balances, and again u/u₀ = 1/K, with u relative to the mean over the whole cell
+//! (spheres included, moving with u). To apply W itself, with f = W/((1 − c)L³), makes the fall too fast by 1/(1 − c).
 
 use super::super::ExactError;
 use super::within;
@@ -25,32 +34,32 @@ pub const MOST_DENSE: f64 = 0.45;
 /// Interpolation at 26 points of [`super::sphere_array::simple_cubic`] with degree and points (13, 20) for c < 0.12,
 /// (17, 28) for c < 0.25, (25, 40) for c < 0.36, (29, 60) above.
 const INVERSE: [f64; 26] = [
-    4.482994810067190e-1,
-    -4.923645483743613e-1,
-    6.983049431831381e-2,
-    1.027264240680513e-2,
-    -1.288195424606470e-4,
-    -3.184114665931116e-5,
-    -2.091469447615786e-4,
-    -8.667891984143621e-5,
-    8.790394251740201e-6,
-    1.411824518405568e-5,
-    2.161442385082082e-6,
-    -1.403647483611846e-6,
-    -8.173026020152053e-7,
-    -9.902593608360851e-8,
-    8.573407988671660e-8,
-    4.661873745157244e-8,
-    2.864866976127499e-9,
-    -7.357909802808448e-9,
-    -4.014046727486031e-9,
-    -8.128092429884668e-10,
-    1.703186993149932e-10,
-    2.176239615864644e-10,
-    1.295894396065204e-10,
-    6.986300213554295e-11,
-    3.339030120773036e-11,
-    1.170088598661651e-11,
+    4.482_994_810_067e-1,
+    -4.923_645_483_744e-1,
+    6.983_049_431_831e-2,
+    1.027_264_240_681e-2,
+    -1.288_195_424_606e-4,
+    -3.184_114_665_931e-5,
+    -2.091_469_447_616e-4,
+    -8.667_891_984_144e-5,
+    8.790_394_251_74e-6,
+    1.411_824_518_406e-5,
+    2.161_442_385_082e-6,
+    -1.403_647_483_612e-6,
+    -8.173_026_020_152e-7,
+    -9.902_593_608_361e-8,
+    8.573_407_988_672e-8,
+    4.661_873_745_157e-8,
+    2.864_866_976_127e-9,
+    -7.357_909_802_808e-9,
+    -4.014_046_727_486e-9,
+    -8.128_092_429_885e-10,
+    1.703_186_993_15e-10,
+    2.176_239_615_865e-10,
+    1.295_894_396_065e-10,
+    6.986_300_213_554e-11,
+    3.339_030_120_773e-11,
+    1.170_088_598_662e-11,
 ];
 
 /// K(c), by interpolation of [`super::sphere_array::simple_cubic`].
@@ -98,7 +107,7 @@ pub const ZICK_HOMSY: [(f64, f64); 10] = [
     (0.216, 7.442),
     (0.343, 15.4),
     (0.45, 28.1),
-    (0.5236, 42.1),
+    (core::f64::consts::FRAC_PI_6, 42.1),
 ];
 
 /// Dilute series 1/K = 1 − 1.7601 c^{1/3} + c − 1.5593 c².
