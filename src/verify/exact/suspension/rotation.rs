@@ -87,7 +87,7 @@ fn unwind(x: f64, factor: f64) -> f64 {
 ///
 /// # Source
 /// Nir & Acrivos 1973, J. Fluid Mech. 59, 209-223, doi 10.1017/S0022112073001527 (the paper confirmed, the digits
-/// 1.98 from memory; see [`CHAINS`] for a value computed independently); Wakiya 1971, J. Phys. Soc. Japan 31, 1581.
+/// 1.98 from memory; see [`chain`] for a value computed independently); Wakiya 1971, J. Phys. Soc. Japan 31, 1581.
 pub const TOUCHING_PAIR: f64 = 1.98;
 
 /// Largest number of spheres of [`chain`].
