@@ -1,5 +1,6 @@
 //! Constitutive laws σ(γ̇) and the local solve \[Y3\] that turns a stress into a shear rate.
 
+pub mod bagnold;
 mod bingham;
 mod herschel_bulkley;
 mod newtonian;

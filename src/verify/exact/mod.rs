@@ -22,6 +22,7 @@ pub mod shear_wave;
 pub mod slip;
 pub mod slump;
 pub mod start_up;
+pub mod suspension;
 pub mod taylor_couette;
 pub mod taylor_green;
 pub mod thin_layer;
