@@ -138,6 +138,9 @@ impl<P: Physics, E: Element> Host for FastRun<P, E> {
     fn take_parked(&mut self, cell: usize) -> f64 {
         self.surface.as_mut().and_then(|surface| surface.parked.remove(&(cell as u32))).unwrap_or(0.0)
     }
+    fn gain(&mut self, cell: usize, mass: f64) {
+        Cells::add_mass(self, cell, mass);
+    }
     fn book(&mut self, mass: f64, momentum: &[f64; 3]) {
         if let Some(surface) = &mut self.surface {
             surface.books.mass_from_grains.add(mass);

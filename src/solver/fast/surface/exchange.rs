@@ -122,7 +122,6 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                         touches |= touch::WALL;
                         let number = number as usize;
                         arrived[i] = self.task.old[number].get()[index::<E>(local, direction)].to_f64();
-                        gained[i] = fill * (arrived[i] - own[out]);
                         continue;
                     }
                     if gas {
