@@ -159,7 +159,7 @@ pub fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
         items.push(per_cell("fluid numbers", Part::Walls, 1));
     }
     if setup.grains.is_some() {
-        items.push(item("grains: owners of cells, links, neighbours", Part::Grains, added_bytes(setup)));
+        items.push(item("grains: owners, links, neighbours", Part::Grains, added_bytes(setup)));
     }
     items.push(per_cell("fields while writing", Part::Outputs, FIELDS));
     items.push(per_cell("the same in SI units", Part::Outputs, PICTURE));

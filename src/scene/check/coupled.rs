@@ -13,6 +13,13 @@ pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
         allowed: "one fluid around the grains",
     })?;
     dry::check_in_fluid(&view, scene.fluid.initial.is_some())?;
+    let names: Vec<&str> = scene.output.probes.iter().map(|probe| probe.name.as_str()).collect();
+    for (i, probe) in scene.output.grain_probes.iter().enumerate() {
+        let fresh = !names.contains(&probe.name.as_str());
+        at.ensure(fresh, &format!("output.grain_probes[{i}].name"), || SceneProblem::DuplicateName {
+            name: probe.name.clone(),
+        })?;
+    }
     coupling(at, scene)
 }
 
@@ -44,6 +51,10 @@ fn coupling(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
         let way_out = "leave it out: `plan` chooses";
         range("sub_steps", f64::from(steps), "", [1.0, MOST_SUB_STEPS], because, way_out)?;
     }
+    let given = scene.grains.as_ref().is_some_and(|grains| grains.numerics.time_step_s.is_some());
+    at.ensure(!given || rules.sub_steps.is_none(), "grains.numerics.time_step_s", || {
+        SceneProblem::UnusedKey { key: "time_step_s", because: "`grains.coupling.sub_steps` fixes it" }
+    })?;
     let Some(balanced) = rules.balanced else { return Ok(()) };
     let pulls = |a: usize| scene.gravity.is_some_and(|g| crate::plan::gravity_vector(&g)[a] != 0.0);
     let faces = scene.domain.boundaries.by_axis();
