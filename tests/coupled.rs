@@ -211,6 +211,7 @@ fn forces_of_contacts_and_fluid_are_apart() {
         "grains": {
             "materials": [ { "name": "stone", "density_kg_per_m3": 2500.0, "young_modulus_pa": 1e6, "poisson_ratio": 0.3 } ],
             "contact": { "law": { "tsuji": { "restitution": 0.3 } }, "friction": 0.3 },
+            "coupling": { "lubrication": "off" },
             "sets": [ { "name": "stone", "place": { "list": [ { "position_m": [0.02, 0.02, 0.0315], "radius_m": 0.006 } ] } } ] },
         "stop": { "end_time_s": 0.3 },
         "output": { "probes": [ { "name": "block", "measure": { "force": { "solid": "block" } } } ] }
