@@ -1,7 +1,7 @@
 //! The fixed list of flows that are timed, in lattice units.
 
 use super::flows::{
-    Dam, bingham, channel, herschel_bulkley, newtonian, rigid, shear_rate, twin_bingham, twin_dam,
+    Dam, bingham, channel, herschel_bulkley, newtonian, rigid, settling, shear_rate, twin_bingham, twin_dam,
     twin_herschel_bulkley, twin_rigid, vortices,
 };
 use crate::solver::setup::{Precision, Setup};
@@ -154,7 +154,7 @@ const BINGHAM: [Compare; 2] = precisions!("precision", "bingham");
 const MUD: [Compare; 2] = precisions!("precision", "herschel-bulkley");
 
 /// All groups, in the order in which they run.
-pub const GROUPS: [Group; 8] = [
+pub const GROUPS: [Group; 9] = [
     Group {
         name: "bulk",
         about: "vortices in a periodic cube of 192³",
@@ -376,5 +376,21 @@ pub const GROUPS: [Group; 8] = [
             ratio("3·10⁷ / 10⁶ cells", Quantity::TimePerUpdate, "sizes/3e7", "sizes/1e6"),
         ],
         single_thread: false,
+    },
+    Group {
+        name: "coupled",
+        about: "grains that settle in a Newtonian fluid, radius of 3 cells",
+        cases: &[
+            case("coupled/none", "the fluid alone, 180³ cells", |s| settling(s, 0)),
+            case("coupled/1", "one grain", |s| settling(s, 1)),
+            case("coupled/100", "125 grains", |s| settling(s, s.pick(5, 3))),
+            case("coupled/1e4", "10 648 grains: a fifth of the volume", |s| settling(s, s.pick(22, 10))),
+        ],
+        compare: &[
+            ratio("1 grain / none", Quantity::TimePerStep, "coupled/1", "coupled/none"),
+            ratio("125 grains / none", Quantity::TimePerStep, "coupled/100", "coupled/none"),
+            ratio("10⁴ grains / none", Quantity::TimePerStep, "coupled/1e4", "coupled/none"),
+        ],
+        single_thread: true,
     },
 ];

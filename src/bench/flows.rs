@@ -3,8 +3,11 @@
 use std::sync::Arc;
 
 use super::cases::Scale;
+use crate::coupling::Suspension;
+use crate::dem::{self, Grain, Material, Materials, PairProperties, Period, V3};
 use crate::rheology::Law;
 use crate::solver::setup::{BodyForce, Face, FlowPoint, FreeSurface, InitialFlow, Setup};
+use crate::units::Units;
 
 /// Speed of the vortices, cells per step.
 const SPEED: f64 = 0.02;
@@ -182,4 +185,36 @@ pub(super) fn twin_rigid() -> Setup {
 pub(super) fn twin_dam() -> Setup {
     let dam = Dam::small(Scale::Quick);
     dam.setup(dam.mud())
+}
+
+/// `side`³ spheres of radius 3 on a lattice, each a little off its place, settling in a periodic box whose net force is
+/// zero; without any, vortices in the same box.
+pub(super) fn settling(scale: Scale, side: usize) -> Setup {
+    let n = match scale {
+        Scale::Full => 180,
+        Scale::Quick => 84,
+    };
+    let mut setup = vortices(n, newtonian());
+    if side == 0 {
+        return setup;
+    }
+    let material = Material { name: "glass".to_owned(), density_kg_m3: 2.5, young_pa: 1.0, poisson: 0.25 };
+    let mut grains = dem::Setup::new(Materials::single(material, PairProperties::default()));
+    let length = n as f64;
+    grains.period = Period([Some(length); 3]);
+    grains.gravity = V3::new(0.0, 0.0, -1e-5);
+    grains.design_speed_m_s = 0.02;
+    let spacing = length / side as f64;
+    for k in 0..side * side * side {
+        let place = [k % side, k / side % side, k / side / side];
+        let off = |a: usize| 0.3 * libm::sin((7 * k + 3 * a) as f64);
+        let centre = V3::from_fn(|a, _| (place[a] as f64 + 0.5) * spacing + off(a));
+        grains.grains.push(Grain::sphere(3.0, centre, 0));
+    }
+    let mut suspension = Suspension::new(grains, Units::new(1.0, 1.0, 1.0));
+    suspension.sub_steps = 20;
+    suspension.balanced = [true; 3];
+    setup.force = BodyForce::Constant([0.0, 0.0, -1e-5]);
+    setup.grains = Some(std::sync::Arc::new(suspension));
+    setup
 }

@@ -5,6 +5,7 @@ use super::coverage::Changes;
 use super::host::{Host, Uncovered};
 use super::immersed::Immersed;
 use crate::boundary::links::Source;
+use crate::dem::keep_marked;
 use crate::free_surface::Kind;
 use crate::lattice::moments::{density_excess, momentum};
 use crate::lattice::{Q, W};
@@ -67,6 +68,29 @@ impl Immersed {
             host.book(fill, &given);
             self.books.free(fill, &given);
         }
+    }
+
+    /// Takes grains out of the run: their cells become fluid or gas again, and the others are numbered anew.
+    pub fn leave<H: Host>(&mut self, host: &mut H, keep: &[bool]) {
+        let mut changes = Changes::default();
+        for grain in (0..self.grains()).filter(|&grain| !keep[grain]) {
+            let freed = self.coverage.clear(grain);
+            changes.freed.extend(freed.into_iter().map(|cell| (cell, grain as u32)));
+        }
+        changes.freed.sort_unstable();
+        self.apply(host, &changes);
+        self.coverage.retain(keep);
+        keep_marked(&mut self.loads, keep);
+        keep_marked(&mut self.contact, keep);
+        keep_marked(&mut self.owed, keep);
+        keep_marked(&mut self.debt, keep);
+        let walls = self.dem.scenery().walls.len();
+        self.dem.retain(keep, walls);
+        if let Some(gaps) = &mut self.gaps {
+            gaps.forget();
+        }
+        let force = host.setup().force.at(host.step_number());
+        self.balance(host.fluid_count(), &force);
     }
 
     /// What freed cells become, one after the other: liquid where no gas is beside them, interface where liquid is

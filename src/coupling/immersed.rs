@@ -165,6 +165,12 @@ impl Immersed {
         self.failure.as_ref()
     }
 
+    /// How often the friction of a narrow gap was limited to what the grains' time step allows, so far.
+    #[must_use]
+    pub fn limited_gaps(&self) -> u64 {
+        self.gaps.as_ref().map_or(0, Gaps::limited)
+    }
+
     /// How often a grain's cells were looked at again, so far.
     #[must_use]
     pub fn looks(&self) -> u64 {

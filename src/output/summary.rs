@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{OutputError, atomic};
+use crate::dem::Energies;
 use crate::solver::fingerprint::Fingerprint;
 use crate::verify::record::number;
 
@@ -41,9 +42,12 @@ pub struct Summary {
     pub speed_m_per_s: Extrema,
     /// Hash and digest of the final state.
     pub fingerprint: Fingerprint,
-    /// The ledger; only with a free surface.
+    /// The ledger; only with a free surface or grains.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub free_surface: Option<SurfaceSummary>,
+    /// The grains; only with grains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grains: Option<CoupledSummary>,
     /// Why a guard stopped the run, if one did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,
@@ -67,7 +71,7 @@ pub struct SurfaceSummary {
     /// Mass that has no cell at the moment, kg; part of `mass_kg`.
     #[serde(with = "number")]
     pub parked_kg: f64,
-    /// (mass + outflow − from walls − initial)/initial.
+    /// (mass + outflow − from walls − from grains − initial)/initial.
     #[serde(with = "number")]
     pub mass_residual: f64,
     /// Momentum at the end, N s.
@@ -80,6 +84,12 @@ pub struct SurfaceSummary {
     pub from_solids_n_s: [f64; 3],
     /// Momentum brought in at the surface, N s.
     pub from_gas_n_s: [f64; 3],
+    /// Momentum brought in by grains, N s.
+    #[serde(default)]
+    pub from_grains_n_s: [f64; 3],
+    /// Mass that came from grains, kg.
+    #[serde(default, with = "number")]
+    pub from_grains_kg: f64,
     /// Momentum brought in by cells that became fluid, less what others took, N s.
     pub from_conversions_n_s: [f64; 3],
     /// Largest component of what the terms above leave unexplained, N s.
@@ -91,6 +101,62 @@ pub struct SurfaceSummary {
     pub interface_cells: u64,
     /// Cells that changed kind during the run.
     pub conversions: u64,
+}
+
+/// The grains in a fluid at the end, and what went between the two.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CoupledSummary {
+    /// Free grains.
+    pub grains: usize,
+    /// Driven grains.
+    pub driven: usize,
+    /// Steps of the grains in a step of the fluid.
+    pub sub_steps: u32,
+    /// Mass of the free grains, kg.
+    #[serde(with = "number")]
+    pub mass_kg: f64,
+    /// Momentum of the free grains, N s.
+    pub momentum_n_s: [f64; 3],
+    /// Largest speed of a free grain.
+    #[serde(with = "number")]
+    pub max_speed_m_per_s: f64,
+    /// Touching pairs of grains.
+    pub contacts: usize,
+    /// Cells covered at the end.
+    pub covered_cells: u64,
+    /// Cells with fluid that grains covered during the run.
+    pub cells_covered: u64,
+    /// Cells that grains gave free to fluid.
+    pub cells_freed: u64,
+    /// Mass that the fluid got from grains, kg: the sum of the next three with their signs.
+    #[serde(with = "number")]
+    pub mass_from_grains_kg: f64,
+    /// Over links, kg.
+    #[serde(with = "number")]
+    pub mass_over_links_kg: f64,
+    /// Taken by covering cells, kg.
+    #[serde(with = "number")]
+    pub mass_covered_kg: f64,
+    /// Given back with freed cells, kg.
+    #[serde(with = "number")]
+    pub mass_freed_kg: f64,
+    /// Momentum that the fluid got from grains, N s.
+    pub from_grains_n_s: [f64; 3],
+    /// Over links, N s.
+    pub over_links_n_s: [f64; 3],
+    /// Taken by covering cells, N s.
+    pub covered_n_s: [f64; 3],
+    /// Given back with freed cells, N s.
+    pub freed_n_s: [f64; 3],
+    /// Uniform pressure gradient that balances the weight, −∇P, Pa/m.
+    pub gradient_pa_per_m: [f64; 3],
+    /// Where the energy of the grains is and went, J; the fluid's work is part of the external work.
+    pub energies_j: Energies,
+    /// What their energy balance changed by since time 0, J.
+    #[serde(with = "number")]
+    pub unexplained_j: f64,
+    /// Hash of the grains' final state.
+    pub fingerprint: String,
 }
 
 /// Range of a field over the fluid cells.

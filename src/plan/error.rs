@@ -165,6 +165,36 @@ pub enum PlanProblem {
     /// Anything else that the discrete element method refuses.
     #[error("{what}\n  allowed: what the message asks for\n  way out: change the value it names")]
     Grains { what: String },
+    /// A solid whose surface moves away from its cells.
+    #[error(
+        "the surface of this solid moves away from where its cells are\n  allowed: with grains, surfaces that slide along themselves: a plane in its plane, an endless cylinder about or along its axis\n  way out: set velocity and spin to 0, or make it a `driven` grain"
+    )]
+    SolidLeavesCells,
+    /// Grains the cells cannot show.
+    #[error(
+        "a grain of set `{set}` has a radius of {radius:.4e} m, {cells:.3} cells\n  allowed: at least {least} cell; below it the surface is a handful of links, and the drag is off by half and more\n  way out: `domain.spacing_m` of at most {spacing:.4e} m ({good:.4e} m for errors of about 1 %), larger grains, or put these sizes into the rheology"
+    )]
+    GrainTooSmall { set: String, radius: f64, cells: f64, least: f64, spacing: f64, good: f64 },
+    /// Too light for explicit coupling.
+    #[error(
+        "found {density} kg/m³, {ratio:.3} of the fluid's density\n  allowed: at least {least} of it: a grain accelerates half its volume of fluid with it, and forces that are known only one step later make lighter ones ring ever louder\n  way out: at least {least_density:.4} kg/m³, or a `driven` grain"
+    )]
+    GrainTooLight { density: f64, ratio: f64, least: f64, least_density: f64 },
+    /// Faster than the guard of the run.
+    #[error(
+        "grains reach {speed:.4e} m/s, {lattice:.3} cells per step at a time step of {dt:.3e} s\n  allowed: at most {limit} cells per step, where the run is stopped\n  way out: a time step of at most {dt_max:.3e} s, or leave it to `plan`"
+    )]
+    GrainsTooFast { speed: f64, lattice: f64, limit: f64, dt: f64, dt_max: f64 },
+    /// Lubrication needs shorter steps.
+    #[error(
+        "with {steps} the friction of lubrication, 6πμR²/h, is limited by the time step below a gap of {gap:.3} cells\n  allowed: gaps of at most {allowed} cells, so that grains do not touch through the fluid\n  way out: at least {needed}, leave it out, or `\"lubrication\": \"off\"`"
+    )]
+    LubricationStep { steps: u32, needed: f64, gap: f64, allowed: f64 },
+    /// More sub-steps than make sense.
+    #[error(
+        "contacts and lubrication need {needed:.3e} steps of the grains in one step of the fluid\n  allowed: at most {most:.0e}\n  way out: softer material, a smaller `numerics.time_step_s`, or heavier grains"
+    )]
+    TooManySubSteps { needed: f64, most: f64 },
     /// A scale that left the range of 64-bit numbers.
     #[error(
         "{quantity} is {found} in lattice units\n  allowed: finite numbers\n  way out: check the magnitudes of spacing, density and viscosity"

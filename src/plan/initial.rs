@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::cells::Cells;
-use super::scale::{closed_axes, total_force};
+use super::scale::{closed_axes, computed_force};
 use crate::free_surface::{Kind, hydrostatic};
 use crate::scene::{BodyForce, InitialPressure, InitialVelocity, Scene};
 use crate::solver::setup::{FlowPoint, InitialFlow};
@@ -65,7 +65,7 @@ fn flow_below_surface(flow: InitialVelocity, units: &Units, cells: &Cells, force
 
 /// Pressure gradient that holds the force at time 0 along walled axes: ∇p = f.
 fn pressure_gradient(scene: &Scene, units: &Units) -> [f64; 3] {
-    let force = match total_force(scene) {
+    let force = match computed_force(scene) {
         BodyForce::Constant { force_n_per_m3 } => force_n_per_m3,
         BodyForce::Stepped { before_n_per_m3, after_n_per_m3, at_s } => {
             if at_s > 0.0 {

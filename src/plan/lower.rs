@@ -3,7 +3,7 @@
 use super::cells::Cells;
 use super::initial::initial_flow;
 use super::law::to_lattice;
-use super::scale::total_force;
+use super::scale::computed_force;
 use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::hydrostatic;
 use crate::scene::{
@@ -23,7 +23,7 @@ pub fn lower(scene: &Scene, units: &Units, mut cells: Cells) -> Setup {
     let mut setup = Setup::periodic(cells.extents, to_lattice(&scene.fluid.rheology, units));
     setup.faces = scene.domain.boundaries.by_axis().map(|faces| faces.map(|face| lower_face(face, units)));
     setup.fluids.extend(scene.layers.iter().map(|layer| to_lattice(&layer.rheology, units)));
-    setup.force = force(&total_force(scene), units);
+    setup.force = force(&computed_force(scene), units);
     let settled = scene.fluid.initial.as_ref().is_some_and(|i| i.pressure == InitialPressure::Settled);
     if settled {
         let is_solid = |cell: usize| cells.solids.get(cell).is_some_and(|&s| s != 0);

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::coupled::added_bytes;
 use crate::boundary::links::BoundaryCell;
 use crate::scene::{Scene, SurfaceGravity, YieldChoice};
 use crate::solver::choose;
@@ -38,6 +39,8 @@ pub enum Part {
     Walls,
     /// The free surface.
     Surface,
+    /// Grains in the fluid.
+    Grains,
     /// Fields while they are written.
     Outputs,
 }
@@ -64,6 +67,8 @@ pub struct Prediction {
     pub walls: u64,
     /// The free surface.
     pub surface: u64,
+    /// Grains in the fluid.
+    pub grains: u64,
     /// Fields while they are written.
     pub outputs: u64,
     /// All of them: the most that is held at one time.
@@ -73,9 +78,10 @@ pub struct Prediction {
 impl Prediction {
     fn of(items: &[Item]) -> Self {
         let sum = |part| items.iter().filter(|item| item.part == part).map(|item| item.bytes).sum::<u64>();
-        let [populations, walls, surface, outputs] =
-            [Part::Populations, Part::Walls, Part::Surface, Part::Outputs].map(sum);
-        Self { populations, walls, surface, outputs, total: populations + walls + surface + outputs }
+        let [populations, walls, surface, grains, outputs] =
+            [Part::Populations, Part::Walls, Part::Surface, Part::Grains, Part::Outputs].map(sum);
+        let total = populations + walls + surface + grains + outputs;
+        Self { populations, walls, surface, grains, outputs, total }
     }
 
     /// Bytes of the run itself, without outputs: what [`crate::solver::run::Run::allocated_bytes`] says.
@@ -135,9 +141,10 @@ pub fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
     };
     let per_cell = |what, part, bytes: u64| item(what, part, bytes * cells);
     let surface = setup.free_surface.as_ref();
+    // Grains are run by the plain backend for now.
     let layout = match choose::only_plain(setup) {
-        None => layout,
-        Some(_) => Layout::EveryCell,
+        None if setup.grains.is_none() => layout,
+        _ => Layout::EveryCell,
     };
     let mut items = match layout {
         Layout::EveryCell => every_cell(setup, &item),
@@ -151,9 +158,12 @@ pub fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
     if !setup.fluid_of_cell.is_empty() {
         items.push(per_cell("fluid numbers", Part::Walls, 1));
     }
+    if setup.grains.is_some() {
+        items.push(item("grains: owners, links, neighbours", Part::Grains, added_bytes(setup)));
+    }
     items.push(per_cell("fields while writing", Part::Outputs, FIELDS));
     items.push(per_cell("the same in SI units", Part::Outputs, PICTURE));
-    if surface.is_some() {
+    if surface.is_some() || setup.grains.is_some() {
         items.push(per_cell("fill and kind while writing", Part::Outputs, SURFACE_FIELDS));
     }
     items
@@ -178,8 +188,10 @@ fn every_cell(setup: &Setup, item: &dyn Fn(&'static str, Part, u64) -> Item) -> 
     if matches!(setup.yielding, YieldTreatment::LaggedClamped { .. }) {
         items.push(item("relaxation time of the previous step", Part::Populations, LAG * cells));
     }
-    if let Some(surface) = &setup.free_surface {
+    if setup.free_surface.is_some() || setup.grains.is_some() {
         items.push(item("surface kind, mass, fill, velocity", Part::Surface, SURFACE * cells));
+    }
+    if let Some(surface) = &setup.free_surface {
         if surface.force == SurfaceForce::ByFillAndInertia {
             items.push(item("acceleration in surface cells", Part::Surface, INERTIA * cells));
         }

@@ -2,6 +2,7 @@
 
 mod cells;
 mod checks;
+pub mod coupled;
 mod error;
 pub mod grains;
 mod initial;
@@ -25,7 +26,7 @@ pub use error::{PlanError, PlanProblem};
 pub use memory::{Layout, available as available_memory};
 pub use needs::Need;
 pub use numbers::Numbers;
-pub use scale::{extreme_forces, gravity_vector, total_force};
+pub use scale::{computed_force, driving_force, extreme_forces, gravity_vector, total_force};
 pub use time_step::StepRule;
 
 use crate::scene::Scene;
@@ -41,6 +42,8 @@ pub struct Plan {
     pub setup: Setup,
     /// Steps to the end time.
     pub steps: u64,
+    /// The grains; `None` without any.
+    pub grains: Option<coupled::Coupled>,
     /// What `lahar plan` prints.
     pub numbers: Numbers,
 }
@@ -83,7 +86,8 @@ impl Plan {
         let cells = cells::fill(scene);
         checks::some_fluid(&cells).map_err(|problem| at("solids", problem))?;
         surface_checks::surface(scene, &cells).map_err(|(path, problem)| at(&path, problem))?;
-        let scales = scale::scales(scene, &cells);
+        let mut scales = scale::scales(scene, &cells);
+        let started = coupled::start(scene, &cells, &mut scales, available)?;
         let (dt, rule) = time_step::choose(scene, &scales, cells.pool.as_ref())
             .map_err(|problem| at("numerics", problem))?;
         let units = time_step::units(scene, dt);
@@ -91,7 +95,10 @@ impl Plan {
         let gap = cells.gap;
         let fluid_cells = cells.fluid_cells;
         let pool = cells.pool;
-        let setup = lower::lower(scene, &units, cells);
+        let mut setup = lower::lower(scene, &units, cells);
+        let finished = started
+            .map(|started| started.finish(scene, &units, &scales, &mut setup, rule.path()))
+            .transpose()?;
         checks::memory(scene, &setup, layout, available).map_err(|problem| at("domain", problem))?;
         checks::finite(&setup).map_err(|problem| at("fluid", problem))?;
         let numbers = numbers::numbers(&numbers::Given {
@@ -105,9 +112,10 @@ impl Plan {
             fluid_cells,
             pool,
             layout,
+            coupled: finished.as_ref(),
         });
         checks::numbers(&numbers, &setup).map_err(|problem| at(rule.path(), problem))?;
-        Ok(Self { units, setup, steps, numbers })
+        Ok(Self { units, setup, steps, grains: finished.map(|(coupled, _)| coupled), numbers })
     }
 }
 

@@ -40,6 +40,9 @@ pub(super) fn case_of(
 ) -> Result<(Case, f64, Vec<String>), String> {
     let mut differences = Vec::new();
     let fluid = fluid(&scene.fluid.rheology, &mut differences)?;
+    if scene.grains.is_some() {
+        return Err("the scene has grains, and no flow of the table".to_owned());
+    }
     if !scene.layers.is_empty() {
         return Err("the scene has several fluids, the flows of the table one".to_owned());
     }

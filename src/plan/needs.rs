@@ -43,6 +43,11 @@ pub(super) fn passes(scene: &Scene, setup: &Setup) -> Vec<Need> {
         } else {
             need("solid lookup", true, "links may end in solids [B1]")
         },
+        if setup.grains.is_some() {
+            need("grains", true, "links, covered cells, contacts and lubrication [C1]-[C6]")
+        } else {
+            need("grains", false, "no grains in the fluid: no owners, no links, no contacts")
+        },
         if setup.fluid_of_cell.is_empty() {
             need("fluid lookup", false, "one fluid")
         } else {

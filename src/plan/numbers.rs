@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::coupled::{self, Coupled, CoupledNumbers, Findings};
 use super::law::{self, apparent_viscosity, has_plug, plastic_viscosity};
 use super::memory::{Item, Layout, items};
 use super::needs::{Need, passes};
@@ -17,6 +18,9 @@ use crate::units::Units;
 /// Cell updates per second assumed for the cost estimate: fast backend, one thread, a flow with a free surface
 /// on a processor with 256-bit registers or better. `lahar bench` measures it.
 const UPDATES_PER_SECOND: f64 = 1e7;
+
+/// Sphere updates per second assumed for the same: the order of what `lahar bench` gives.
+const SPHERE_UPDATES_PER_SECOND: f64 = 2e6;
 
 /// Excess mass worth a warning: 0.4 % of the volume moves the front of a long thin flow by as much.
 const LEAST_EXCESS: f64 = 4e-3;
@@ -102,6 +106,9 @@ pub struct Numbers {
     pub estimated_seconds: f64,
     /// What to think about before running.
     pub warnings: Vec<String>,
+    /// The grains; left out without any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grains: Option<CoupledNumbers>,
 }
 
 /// What the numbers follow from.
@@ -116,6 +123,7 @@ pub(super) struct Given<'a> {
     pub fluid_cells: u64,
     pub pool: Option<Pool>,
     pub layout: Layout,
+    pub coupled: Option<&'a (Coupled, Findings)>,
 }
 
 pub(super) fn numbers(given: &Given) -> Numbers {
@@ -174,10 +182,19 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         cell_updates,
         estimated_seconds: cell_updates / UPDATES_PER_SECOND,
         warnings: Vec::new(),
+        grains: None,
     };
     numbers.warnings = warnings(&numbers, scene, setup);
     numbers.warnings.extend(surface_warnings(&numbers));
     numbers.warnings.extend(weight_warning(given));
+    if let Some((coupled, findings)) = given.coupled {
+        let open = (cells - solid_cells) as f64 * units.dx_m * units.dx_m * units.dx_m;
+        let mixture = given.pool.map_or(open, |pool| pool.volume);
+        let (grains, warnings) = coupled::numbers(scene, units, setup, coupled, findings, scales, mixture);
+        numbers.estimated_seconds += grains.sphere_updates / SPHERE_UPDATES_PER_SECOND;
+        numbers.warnings.extend(warnings);
+        numbers.grains = Some(grains);
+    }
     numbers
 }
 

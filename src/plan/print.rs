@@ -70,6 +70,9 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
             short(n.rounding_floor)
         ),
     )?;
+    if let Some(grains) = &n.grains {
+        super::coupled::table(f, grains)?;
+    }
     writeln!(f, "\nMemory")?;
     for item in &n.memory {
         row(f, item.what, format_args!("{} bytes per cell", short(item.bytes_per_cell)))?;
@@ -86,8 +89,9 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
         f,
         "rough time",
         format_args!(
-            "{} s on one thread, assuming 10 million updates per second",
-            short(n.estimated_seconds)
+            "{} s on one thread, assuming 10 million updates per second{}",
+            short(n.estimated_seconds),
+            if n.grains.is_some() { " and 2 million of spheres" } else { "" }
         ),
     )?;
     if !n.warnings.is_empty() {

@@ -44,8 +44,27 @@ pub fn gravity_vector(gravity: &Gravity) -> [f64; 3] {
 /// Body force with gravity in it.
 #[must_use]
 pub fn total_force(scene: &Scene) -> BodyForce {
+    force_without_weight(scene, [false; 3])
+}
+
+/// Body force that the fluid is computed with: without its weight where the pressure of the fluid at rest is left out
+/// of the computed one ([`Scene::weightless_axes`]).
+#[must_use]
+pub fn computed_force(scene: &Scene) -> BodyForce {
+    force_without_weight(scene, scene.weightless_axes())
+}
+
+/// What of it drives a flow: not the weight that a uniform pressure gradient carries either.
+#[must_use]
+pub fn driving_force(scene: &Scene) -> BodyForce {
+    let (weightless, balanced) = (scene.weightless_axes(), scene.balanced_axes());
+    force_without_weight(scene, std::array::from_fn(|a| weightless[a] || balanced[a]))
+}
+
+fn force_without_weight(scene: &Scene, without: [bool; 3]) -> BodyForce {
     let weight =
         scene.gravity.map_or([0.0; 3], |gravity| gravity_force(&gravity, scene.fluid.density_kg_per_m3));
+    let weight: [f64; 3] = std::array::from_fn(|a| if without[a] { 0.0 } else { weight[a] });
     let plus = |f: [f64; 3]| std::array::from_fn(|a| f[a] + weight[a]);
     match scene.fluid.body_force {
         None => BodyForce::Constant { force_n_per_m3: weight },
@@ -93,7 +112,7 @@ pub fn scales(scene: &Scene, cells: &Cells) -> Scales {
     } else {
         scene.domain.size_m.into_iter().fold(0.0, greatest)
     };
-    let force = total_force(scene);
+    let force = driving_force(scene);
     let extremes = extreme_forces(&force);
     let closed = closed_axes(scene);
     let driving = extremes

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::error::PlanProblem;
 use super::law::{parameters, plastic_viscosity};
-use super::scale::{Scales, closed_axes, extreme_forces, total_force};
+use super::scale::{Scales, closed_axes, driving_force, extreme_forces};
 use super::surface::Pool;
 use crate::scene::{BodyForce, Scene};
 use crate::units::Units;
@@ -177,7 +177,7 @@ fn compression_step(scene: &Scene, pool: Option<&Pool>) -> f64 {
     let heights = pool.map_or(scene.domain.size_m, |pool| pool.runs);
     let dx = scene.domain.spacing_m;
     let mut least = f64::INFINITY;
-    for force in extreme_forces(&total_force(scene)) {
+    for force in extreme_forces(&driving_force(scene)) {
         for (axis, closed) in closed_axes(scene).into_iter().enumerate() {
             let weight = 3.0 * force[axis].abs() * heights[axis];
             if closed && weight > 0.0 {

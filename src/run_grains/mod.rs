@@ -1,12 +1,12 @@
 //! Running a planned scene without fluid into a folder.
 
 mod leave;
-mod pictures;
-mod probes;
-mod stop;
+pub(crate) mod pictures;
+pub(crate) mod probes;
+pub(crate) mod stop;
 mod summary;
 mod walls;
-mod writer;
+pub(crate) mod writer;
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -116,7 +116,7 @@ fn start(scene: &DryScene, plan: &GrainPlan, options: &GrainOptions) -> Result<G
         scene,
         plan,
         options,
-        sampler: Sampler::new(scene, plan, &grains),
+        sampler: Sampler::new(scene, plan, &grains.view()),
         grains,
         end,
         series: ticker(scene.output.series.unwrap_or(Cadence::Count(DEFAULT_ROWS))),
@@ -151,8 +151,8 @@ struct Driver<'a> {
 
 impl Driver<'_> {
     fn drive(&mut self, writer: &mut Writer) -> Result<GrainsFinished, RunError> {
-        writer.row(&mut self.sampler, &self.grains)?;
-        writer.files(&self.grains)?;
+        writer.row(&mut self.sampler, &self.grains.view())?;
+        writer.files(&self.grains.view())?;
         let mut why = None;
         while why.is_none() {
             let now = self.grains.dem.steps();
@@ -168,15 +168,15 @@ impl Driver<'_> {
                 (now >= self.end).then_some(Ending::EndTime)
             };
             if self.series.take_if_due(now) || why.is_some() {
-                writer.row(&mut self.sampler, &self.grains)?;
+                writer.row(&mut self.sampler, &self.grains.view())?;
             }
             if self.files.take_if_due(now) || why.is_some() {
-                writer.files(&self.grains)?;
+                writer.files(&self.grains.view())?;
                 self.progress.note(&self.line());
             }
         }
         let finished = self.finished(why.unwrap_or(Ending::EndTime));
-        writer.finish(&self.grains)?;
+        writer.finish(&self.grains.view())?;
         self.summary(writer, &finished, None)?;
         Ok(finished)
     }
@@ -207,7 +207,7 @@ impl Driver<'_> {
 
     /// Writes what there is and says why the run stopped.
     fn stopped(&self, error: &DemError, writer: &Writer) -> Result<RunError, RunError> {
-        let report = stop::report(self.scene, self.plan, &self.grains, error);
+        let report = stop::report(self.scene, self.plan, &self.grains.view(), error);
         writer.finish_series()?;
         self.summary(writer, &self.finished(Ending::EndTime), Some(report.to_string()))?;
         Ok(RunError::Grains(Box::new(report)))
@@ -257,20 +257,53 @@ impl Driver<'_> {
         stopped: Option<String>,
     ) -> Result<(), RunError> {
         let threads = self.options.threads.max(1);
-        let summary = summary::summary(self.scene, &self.grains, finished, threads, stopped);
+        let summary = summary::summary(self.scene, &self.grains.view(), finished, threads, stopped);
         summary.write(&writer.path("summary.json")).map_err(RunError::Output)
     }
 }
 
+/// Grains to be measured and written, whoever moves them.
+#[derive(Clone, Copy)]
+pub(crate) struct View<'a> {
+    pub dem: &'a Dem,
+    /// The set-up of the grains still there.
+    pub setup: &'a Setup,
+    /// Number at time 0 of each grain still there.
+    pub ids: &'a [u32],
+    /// Number, mass (kg) and energy (J) of the grains that have left.
+    pub left: (u64, f64, f64),
+    /// Energy balance at time 0, J.
+    pub start: f64,
+    /// Time since the start, s.
+    pub time: f64,
+}
+
 impl Grains {
-    /// Grains that are not driven.
-    pub fn free(&self) -> impl Iterator<Item = usize> + '_ {
-        let b = self.dem.bodies();
-        (0..b.len()).filter(|&i| b.inverse_mass[i] > 0.0)
+    pub fn view(&self) -> View<'_> {
+        View {
+            dem: &self.dem,
+            setup: &self.setup,
+            ids: &self.ids,
+            left: self.left,
+            start: self.start,
+            time: self.dem.time(),
+        }
     }
 
     fn nothing_left(&self) -> bool {
-        self.left.0 > 0 && self.free().next().is_none()
+        self.left.0 > 0 && self.view().free().next().is_none()
+    }
+
+    fn max_speed(&self) -> f64 {
+        self.view().max_speed()
+    }
+}
+
+impl<'a> View<'a> {
+    /// Grains that are not driven.
+    pub fn free(&self) -> impl Iterator<Item = usize> + use<'a> {
+        let b = self.dem.bodies();
+        (0..b.len()).filter(|&i| b.inverse_mass[i] > 0.0)
     }
 
     /// Largest speed of a free grain, m/s.

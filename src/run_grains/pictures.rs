@@ -1,56 +1,85 @@
 //! Plots of a run without fluid.
 
-use super::Grains;
-use super::writer::Writer;
+use std::path::Path;
+
+use super::View;
+use super::writer::{Files, Writer};
 use crate::geometry::Axis as Direction;
+use crate::output::csv::Series;
 use crate::output::discs::{self, Disc, Discs};
 use crate::output::plot::{Axis, Plot, Series as Curve};
 use crate::output::{OutputError, atomic, svg};
 
 impl Writer<'_> {
     /// Every probe over time, and the grains seen from the side.
-    pub fn plots(&self, grains: &Grains) -> Result<(), OutputError> {
-        let mut column = 1;
-        for (name, count) in &self.groups {
-            let mut from = column;
-            // Neighbouring columns of one unit share a figure.
-            while from < column + count {
-                let unit = &self.series.columns[from].unit;
-                let same =
-                    (from..column + count).take_while(|&c| &self.series.columns[c].unit == unit).count();
-                let first = self.series.columns[from].name.as_str();
-                // Vectors go by their name without the component.
-                let vector = if same > 1 { first.strip_suffix("_x").unwrap_or(first) } else { first };
-                let file = if same == *count { name } else { vector };
-                self.series_plot(file, from..from + same)?;
-                from += same;
-            }
-            column += count;
-        }
-        self.svg("grains.svg", &discs::draw(&self.side_view(grains)))
+    pub fn plots(&self, grains: &View<'_>) -> Result<(), OutputError> {
+        let title = &self.files.plan.numbers.title;
+        series_plots(&self.path("plots"), title, &self.series, &self.groups, 1)?;
+        self.files.picture(grains)
     }
+}
 
-    fn series_plot(&self, file: &str, range: std::ops::Range<usize>) -> Result<(), OutputError> {
-        let first = &self.series.columns[range.start];
-        let unit = if first.unit == "-" { "" } else { first.unit.as_str() };
-        let alone = range.len() == 1;
-        let mut plot =
-            Plot::new(&self.plan.numbers.title, Axis::linear("time", "s"), Axis::linear(file, unit));
-        for column in range {
-            let points: Vec<[f64; 2]> = self.series.rows.iter().map(|row| [row[0], row[column]]).collect();
-            if alone || points.iter().any(|point| point[1] != 0.0) {
-                plot = plot.with(Curve::line(&self.series.columns[column].name, points));
-            }
+/// A figure per probe and unit; the columns of the probes begin at `first`.
+pub(crate) fn series_plots(
+    folder: &Path,
+    title: &str,
+    series: &Series,
+    groups: &[(String, usize)],
+    first: usize,
+) -> Result<(), OutputError> {
+    let mut column = first;
+    for (name, count) in groups {
+        let mut from = column;
+        // Neighbouring columns of one unit share a figure.
+        while from < column + count {
+            let unit = &series.columns[from].unit;
+            let same = (from..column + count).take_while(|&c| &series.columns[c].unit == unit).count();
+            let first = series.columns[from].name.as_str();
+            // Vectors go by their name without the component.
+            let vector = if same > 1 { first.strip_suffix("_x").unwrap_or(first) } else { first };
+            let file = if same == *count { name } else { vector };
+            series_plot(folder, title, series, file, from..from + same)?;
+            from += same;
         }
-        self.svg(&format!("series_{file}.svg"), &svg::draw(&plot)?)
+        column += count;
+    }
+    Ok(())
+}
+
+fn series_plot(
+    folder: &Path,
+    title: &str,
+    series: &Series,
+    file: &str,
+    range: std::ops::Range<usize>,
+) -> Result<(), OutputError> {
+    let first = &series.columns[range.start];
+    let unit = if first.unit == "-" { "" } else { first.unit.as_str() };
+    let alone = range.len() == 1;
+    let mut plot = Plot::new(title, Axis::linear("time", "s"), Axis::linear(file, unit));
+    for column in range {
+        let points: Vec<[f64; 2]> = series.rows.iter().map(|row| [row[0], row[column]]).collect();
+        if alone || points.iter().any(|point| point[1] != 0.0) {
+            plot = plot.with(Curve::line(&series.columns[column].name, points));
+        }
+    }
+    let text = svg::draw(&plot)?;
+    atomic::write(&folder.join(format!("series_{file}.svg")), text.as_bytes())
+}
+
+impl Files<'_> {
+    /// The grains seen from the side.
+    pub fn picture(&self, grains: &View<'_>) -> Result<(), OutputError> {
+        let text = discs::draw(&self.side_view(grains));
+        atomic::write(&self.folder().join("plots/grains.svg"), text.as_bytes())
     }
 
     /// All spheres seen along the shortest axis of the box, but never from above.
-    fn side_view(&self, grains: &Grains) -> Discs {
+    fn side_view(&self, grains: &View<'_>) -> Discs {
         let g = self.plan.setup.gravity;
         let up = Direction::ALL.into_iter().max_by(|a, b| g[a.index()].abs().total_cmp(&g[b.index()].abs()));
         let up = up.filter(|axis| g[axis.index()] != 0.0).unwrap_or(Direction::Z);
-        let size = self.scene.domain.size_m;
+        let size = self.size_m;
         let level = Direction::ALL.into_iter().filter(|axis| *axis != up);
         let depth = level.clone().min_by(|a, b| size[a.index()].total_cmp(&size[b.index()]));
         let depth = depth.unwrap_or(Direction::Y);
@@ -60,7 +89,10 @@ impl Writer<'_> {
             Some(length) => x - (x / length).floor() * length,
             None => x,
         };
-        let mut discs: Vec<(f64, Disc)> = (grains.dem.members().iter())
+        let mut discs: Vec<(f64, Disc)> = grains
+            .dem
+            .members()
+            .iter()
             .map(|m| {
                 let x = m.position;
                 let disc = Disc {
@@ -75,16 +107,12 @@ impl Writer<'_> {
         // Far ones first.
         discs.sort_by(|p, q| q.0.total_cmp(&p.0));
         Discs {
-            title: format!("{}: {:.4} s", self.plan.numbers.title, grains.dem.time()),
+            title: format!("{}: {:.4} s", self.plan.numbers.title, grains.time),
             label: "speed".to_owned(),
             unit: "m/s".to_owned(),
             axes: [across.letter().to_string(), up.letter().to_string()],
             size_m: [size[a], size[u]],
             discs: discs.into_iter().map(|(_, disc)| disc).collect(),
         }
-    }
-
-    fn svg(&self, name: &str, text: &str) -> Result<(), OutputError> {
-        atomic::write(&self.path("plots").join(name), text.as_bytes())
     }
 }

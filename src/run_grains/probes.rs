@@ -1,6 +1,6 @@
 //! What the time series of a run without fluid holds.
 
-use super::Grains;
+use super::View;
 use crate::dem::V3;
 use crate::geometry::Axis;
 use crate::plan::grains::GrainPlan;
@@ -8,9 +8,13 @@ use crate::scene::dry::{DryScene, GrainMeasure, GrainProbe, Target};
 
 /// Share of the mass a pile leaves out at each end when the scene does not say.
 const SHARE: f64 = 0.005;
+/// The same beyond a front.
+const FRONT_SHARE: f64 = 0.02;
+/// Size classes when the scene does not say.
+const CLASSES: u32 = 3;
 
 /// Columns of a probe: name and unit.
-pub(super) fn columns(probe: &GrainProbe) -> Vec<(String, &'static str)> {
+pub(crate) fn columns(probe: &GrainProbe) -> Vec<(String, &'static str)> {
     let name = &probe.name;
     let many = |parts: &[(&str, &'static str)]| {
         parts.iter().map(|(part, unit)| (format!("{name}_{part}"), *unit)).collect::<Vec<_>>()
@@ -54,11 +58,27 @@ pub(super) fn columns(probe: &GrainProbe) -> Vec<(String, &'static str)> {
             ("torque_z", "N m"),
         ]),
         GrainMeasure::Pile { .. } => many(&[("low", "m"), ("high", "m"), ("height", "m")]),
+        GrainMeasure::SetSpeed { .. } => many(&[("x", "m/s"), ("y", "m/s"), ("z", "m/s"), ("speed", "m/s")]),
+        GrainMeasure::Segregation { classes, .. } => {
+            (1..=classes.unwrap_or(CLASSES)).map(|class| (format!("{name}_height_{class}"), "m")).collect()
+        }
+        GrainMeasure::GrainFront { .. } | GrainMeasure::Submergence { .. } => vec![(name.clone(), "m")],
+        GrainMeasure::FluidForce { .. } => many(&[
+            ("force_x", "N"),
+            ("force_y", "N"),
+            ("force_z", "N"),
+            ("contact_x", "N"),
+            ("contact_y", "N"),
+            ("contact_z", "N"),
+            ("torque_x", "N m"),
+            ("torque_y", "N m"),
+            ("torque_z", "N m"),
+        ]),
     }
 }
 
 /// What probes need besides the state.
-pub(super) struct Sampler {
+pub(crate) struct Sampler {
     probes: Vec<GrainProbe>,
     /// First grain of each set.
     sets: Vec<(String, std::ops::Range<usize>)>,
@@ -71,7 +91,7 @@ pub(super) struct Sampler {
 }
 
 impl Sampler {
-    pub fn new(scene: &DryScene, plan: &GrainPlan, grains: &Grains) -> Self {
+    pub fn new(scene: &DryScene, plan: &GrainPlan, grains: &View<'_>) -> Self {
         let probes = probes(scene);
         let mut sampler = Self {
             sets: plan.sets.clone(),
@@ -100,8 +120,12 @@ impl Sampler {
         }
     }
 
-    /// The values of all probes.
-    pub fn values(&mut self, grains: &Grains) -> Vec<f64> {
+    /// The values of all probes; `around` measures what the fluid around one grain does.
+    pub fn values(
+        &mut self,
+        grains: &View<'_>,
+        around: &dyn Fn(&GrainMeasure, usize) -> Vec<f64>,
+    ) -> Vec<f64> {
         let mut row = Vec::new();
         for k in 0..self.probes.len() {
             let measure = self.probes[k].measure.clone();
@@ -109,13 +133,13 @@ impl Sampler {
                 self.count(k, normal, at_m, grains);
                 row.extend([self.crossed[k].0, self.crossed[k].1]);
             } else {
-                row.extend(self.measure(&measure, grains));
+                row.extend(self.measure(&measure, grains, around));
             }
         }
         row
     }
 
-    fn count(&mut self, probe: usize, normal: Axis, at: f64, grains: &Grains) {
+    fn count(&mut self, probe: usize, normal: Axis, at: f64, grains: &View<'_>) {
         let b = grains.dem.bodies();
         for i in grains.free() {
             let (id, now) = (grains.ids[i] as usize, self.side(b.position[i], normal, at));
@@ -126,8 +150,20 @@ impl Sampler {
         }
     }
 
-    fn measure(&self, measure: &GrainMeasure, grains: &Grains) -> Vec<f64> {
-        let (dem, b) = (&grains.dem, grains.dem.bodies());
+    /// The place of grain `number` of a set among those still there.
+    fn find(&self, set: &str, number: u64, grains: &View<'_>) -> Option<usize> {
+        let start = self.sets.iter().find(|(name, _)| name == set).map_or(0, |(_, range)| range.start);
+        let id = start as u64 + number;
+        grains.ids.iter().position(|&other| u64::from(other) == id)
+    }
+
+    fn measure(
+        &self,
+        measure: &GrainMeasure,
+        grains: &View<'_>,
+        around: &dyn Fn(&GrainMeasure, usize) -> Vec<f64>,
+    ) -> Vec<f64> {
+        let (dem, b) = (grains.dem, grains.dem.bodies());
         match measure {
             GrainMeasure::KineticEnergy => vec![dem.kinetic_energy()],
             GrainMeasure::MaxSpeed => vec![grains.max_speed()],
@@ -149,13 +185,8 @@ impl Sampler {
             }
             GrainMeasure::Momentum => dem.ledger().momentum.iter().copied().collect(),
             GrainMeasure::Grain { set, number } => {
-                let start =
-                    self.sets.iter().find(|(name, _)| name == set).map_or(0, |(_, range)| range.start);
-                let id = start as u64 + number;
                 // A grain that has left has no place.
-                let Some(i) = grains.ids.iter().position(|&other| u64::from(other) == id) else {
-                    return vec![f64::NAN; 9];
-                };
+                let Some(i) = self.find(set, *number, grains) else { return vec![f64::NAN; 9] };
                 let vectors = [b.position[i], b.velocity[i], b.spin[i]];
                 vectors.iter().flat_map(|v| v.iter().copied()).collect()
             }
@@ -179,18 +210,55 @@ impl Sampler {
                 let (x, z): (Vec<_>, Vec<_>) = (places(*along), places(up.unwrap_or(Axis::Z)));
                 vec![quantile(x.clone(), share), quantile(x, 1.0 - share), quantile(z, 1.0 - share)]
             }
+            GrainMeasure::SetSpeed { set } => {
+                let range = self.sets.iter().find(|(name, _)| name == set).map(|(_, range)| range.clone());
+                let range = range.unwrap_or_default();
+                let of: Vec<usize> =
+                    (0..b.len()).filter(|&i| range.contains(&(grains.ids[i] as usize))).collect();
+                let count = of.len().max(1) as f64;
+                let mean = of.iter().fold(V3::zeros(), |sum, &i| sum + b.velocity[i]) / count;
+                let speed = of.iter().map(|&i| b.velocity[i].norm()).sum::<f64>() / count;
+                vec![mean.x, mean.y, mean.z, speed]
+            }
+            GrainMeasure::Segregation { up, classes } => {
+                let up = up.unwrap_or(Axis::Z).index();
+                let sized = grains.free().map(|i| (b.radius[i], b.position[i][up])).collect();
+                class_means(sized, classes.unwrap_or(CLASSES) as usize)
+            }
+            GrainMeasure::GrainFront { along, share } => {
+                let places = grains.free().map(|i| (b.position[i][along.index()], b.mass[i])).collect();
+                vec![quantile(places, 1.0 - share.unwrap_or(FRONT_SHARE))]
+            }
+            GrainMeasure::FluidForce { set, number } => {
+                self.find(set, *number, grains).map_or_else(|| vec![f64::NAN; 9], |i| around(measure, i))
+            }
+            GrainMeasure::Submergence { set, number } => {
+                self.find(set, *number, grains).map_or_else(|| vec![f64::NAN], |i| around(measure, i))
+            }
             GrainMeasure::Flux { .. } => Vec::new(),
         }
     }
 }
 
 /// The probes of a scene; energies and contacts when it names none.
-pub(super) fn probes(scene: &DryScene) -> Vec<GrainProbe> {
+pub(crate) fn probes(scene: &DryScene) -> Vec<GrainProbe> {
     if !scene.output.probes.is_empty() {
         return scene.output.probes.clone();
     }
     let probe = |name: &str, measure| GrainProbe { name: name.to_owned(), measure };
     vec![probe("energy", GrainMeasure::Energies), probe("contacts", GrainMeasure::Contacts)]
+}
+
+/// Mean of the second entries in classes of equal number, by the first entries; NaN for an empty class.
+fn class_means(mut sized: Vec<(f64, f64)>, classes: usize) -> Vec<f64> {
+    // Stable: grains of one size stay in their order.
+    sized.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let n = sized.len();
+    let mean = |class: usize| {
+        let of = &sized[class * n / classes..(class + 1) * n / classes];
+        if of.is_empty() { f64::NAN } else { of.iter().map(|g| g.1).sum::<f64>() / of.len() as f64 }
+    };
+    (0..classes).map(mean).collect()
 }
 
 /// The place below which lies a share of the mass; NaN without any.
@@ -210,6 +278,13 @@ fn quantile(mut places: Vec<(f64, f64)>, share: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_means_of_size_classes() {
+        let sized = vec![(2.0, 10.0), (1.0, 1.0), (3.0, 5.0), (1.0, 3.0), (3.0, 7.0), (2.0, 20.0)];
+        assert_eq!(class_means(sized.clone(), 3), [2.0, 15.0, 6.0]);
+        assert!(class_means(vec![(1.0, 4.0)], 2)[0].is_nan());
+    }
 
     #[test]
     fn exact_quantiles_by_mass() {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Grains;
+use super::View;
 use crate::dem::{DemError, V3};
 use crate::plan::grains::GrainPlan;
 use crate::scene::dry::DryScene;
@@ -30,7 +30,7 @@ pub struct GrainStopReport {
 pub(super) fn report(
     scene: &DryScene,
     plan: &GrainPlan,
-    grains: &Grains,
+    grains: &View<'_>,
     error: &DemError,
 ) -> GrainStopReport {
     let name = |grain: usize| plan.name(grains.ids.get(grain).map_or(grain, |&id| id as usize));

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Ending, Grains, GrainsFinished};
+use super::{Ending, GrainsFinished, View};
 use crate::dem::{Dem, Energies};
 use crate::output::summary::hash;
 use crate::output::{OutputError, atomic};
@@ -97,12 +97,12 @@ pub fn fingerprint(dem: &Dem) -> GrainFingerprint {
 
 pub(super) fn summary(
     scene: &DryScene,
-    grains: &Grains,
+    grains: &View<'_>,
     finished: &GrainsFinished,
     threads: usize,
     stopped: Option<String>,
 ) -> GrainSummary {
-    let dem = &grains.dem;
+    let dem = grains.dem;
     let (ledger, energies) = (dem.ledger(), dem.energies());
     let scale = [energies.lost(), energies.kinetic + energies.rotational, energies.potential.abs()];
     let scale = scale.into_iter().fold(0.0, f64::max);

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::probes::{Sampler, columns, probes};
-use super::{Grains, walls};
+use super::{View, walls};
 use crate::output::OutputError;
 use crate::output::csv::Series;
 use crate::output::pvd::Collection;
@@ -14,18 +14,23 @@ use crate::scene::dry::DryScene;
 
 /// Knows the folder and what has been written.
 pub(super) struct Writer<'a> {
-    folder: PathBuf,
-    pub(super) plan: &'a GrainPlan,
-    pub(super) scene: &'a DryScene,
+    pub(super) files: Files<'a>,
     pub(super) series: Series,
     /// Columns of each probe, for the plots.
     pub(super) groups: Vec<(String, usize)>,
+}
+
+/// Files of the grains themselves.
+pub(crate) struct Files<'a> {
+    folder: PathBuf,
+    pub(super) plan: &'a GrainPlan,
+    pub(super) size_m: [f64; 3],
     collections: [(&'static str, Collection); 4],
     written: usize,
 }
 
 impl<'a> Writer<'a> {
-    pub fn new(scene: &'a DryScene, plan: &'a GrainPlan, folder: &Path) -> Result<Self, RunError> {
+    pub fn new(scene: &DryScene, plan: &'a GrainPlan, folder: &Path) -> Result<Self, RunError> {
         for path in [folder.to_path_buf(), folder.join("plots")] {
             std::fs::create_dir_all(&path).map_err(|source| RunError::Folder { path, source })?;
         }
@@ -34,32 +39,27 @@ impl<'a> Writer<'a> {
         let mut header = vec![("time", "s")];
         header.extend(named.iter().map(|(name, unit)| (name.as_str(), *unit)));
         Ok(Self {
-            folder: folder.to_path_buf(),
-            plan,
-            scene,
+            files: Files::new(scene, plan, folder),
             series: Series::new(&header),
-            groups: probes.iter().map(|probe| (probe.name.clone(), columns(probe).len())).collect(),
-            collections: ["grains", "spheres", "contacts", "walls"].map(|name| (name, Collection::default())),
-            written: 0,
+            groups: groups(scene),
         })
     }
 
     /// A file of the folder.
     pub fn path(&self, name: &str) -> PathBuf {
-        self.folder.join(name)
+        self.files.path(name)
     }
 
     /// Adds a row to the time series.
-    pub fn row(&mut self, sampler: &mut Sampler, grains: &Grains) -> Result<(), RunError> {
-        let mut row = vec![grains.dem.time()];
-        row.extend(sampler.values(grains));
+    pub fn row(&mut self, sampler: &mut Sampler, grains: &View<'_>) -> Result<(), RunError> {
+        let mut row = vec![grains.time];
+        row.extend(sampler.values(grains, &|_, _| Vec::new()));
         self.series.push(&row).map_err(RunError::Output)
     }
 
     /// Writes grains and contacts, and the series so far.
-    pub fn files(&mut self, grains: &Grains) -> Result<(), RunError> {
-        self.snapshot(grains).map_err(RunError::Output)?;
-        self.written += 1;
+    pub fn files(&mut self, grains: &View<'_>) -> Result<(), RunError> {
+        self.files.snapshot(grains).map_err(RunError::Output)?;
         self.finish_series()
     }
 
@@ -69,12 +69,38 @@ impl<'a> Writer<'a> {
     }
 
     /// Series, tables that a scene can start from, and pictures.
-    pub fn finish(&self, grains: &Grains) -> Result<(), RunError> {
+    pub fn finish(&self, grains: &View<'_>) -> Result<(), RunError> {
         self.finish_series()?;
-        self.tables(grains).and_then(|()| self.plots(grains)).map_err(RunError::Output)
+        self.files.tables(grains).and_then(|()| self.plots(grains)).map_err(RunError::Output)
+    }
+}
+
+/// Probes and the number of their columns.
+pub(crate) fn groups(scene: &DryScene) -> Vec<(String, usize)> {
+    probes(scene).iter().map(|probe| (probe.name.clone(), columns(probe).len())).collect()
+}
+
+impl<'a> Files<'a> {
+    pub fn new(scene: &DryScene, plan: &'a GrainPlan, folder: &Path) -> Self {
+        Self {
+            folder: folder.to_path_buf(),
+            plan,
+            size_m: scene.domain.size_m,
+            collections: ["grains", "spheres", "contacts", "walls"].map(|name| (name, Collection::default())),
+            written: 0,
+        }
     }
 
-    fn snapshot(&mut self, grains: &Grains) -> Result<(), OutputError> {
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Grains, their spheres, contacts and walls now.
+    pub fn snapshot(&mut self, grains: &View<'_>) -> Result<(), OutputError> {
         let (pieces, faces) = (&self.plan.setup.walls, self.plan.walls.faces.len());
         // Spheres of clumps only where there are clumps; walls once, unless they move.
         let moving = self.written == 0 || pieces.iter().any(crate::dem::Wall::shifts);
@@ -86,12 +112,13 @@ impl<'a> Writer<'a> {
                 0 => self.bodies(grains, &path)?,
                 1 => self.spheres(grains, &path)?,
                 2 => contacts(grains, &path)?,
-                _ => walls::write(&path, &grains.dem, faces, self.scene.domain.size_m)?,
+                _ => walls::write(&path, grains.dem, faces, self.size_m)?,
             }
             let (stem, collection) = &mut self.collections[kind];
-            collection.push(grains.dem.time(), &name);
+            collection.push(grains.time, &name);
             collection.write(&self.folder.join(format!("{stem}.pvd")))?;
         }
+        self.written += 1;
         Ok(())
     }
 
@@ -100,11 +127,11 @@ impl<'a> Writer<'a> {
         self.plan.sets.iter().position(|(_, range)| range.contains(&(id as usize))).map_or(-1, |k| k as i64)
     }
 
-    fn bodies(&self, grains: &Grains, path: &Path) -> Result<(), OutputError> {
+    fn bodies(&self, grains: &View<'_>, path: &Path) -> Result<(), OutputError> {
         let b = grains.dem.bodies();
         let points: Vec<[f64; 3]> = b.position.iter().map(|&x| x.into()).collect();
         let turned: Vec<[f64; 4]> = (0..b.len()).map(|i| self.orientation(grains, i)).collect();
-        PolyData::new(&points, Cells::Points, grains.dem.time())
+        PolyData::new(&points, Cells::Points, grains.time)
             .at_points("velocity_m_per_s", &triples(&b.velocity))
             .at_points("spin_rad_per_s", &triples(&b.spin))
             .at_points("contact_force_n", &triples(&b.force))
@@ -118,7 +145,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Quaternion (w, x, y, z) that turns the clump as the scene draws it.
-    fn orientation(&self, grains: &Grains, i: usize) -> [f64; 4] {
+    fn orientation(&self, grains: &View<'_>, i: usize) -> [f64; 4] {
         let q = grains.dem.bodies().orientation[i];
         let q = match grains.setup.grains[i].shape {
             crate::dem::Shape::Sphere => q,
@@ -128,12 +155,12 @@ impl<'a> Writer<'a> {
     }
 
     /// The spheres that clumps consist of, with those of single spheres.
-    fn spheres(&self, grains: &Grains, path: &Path) -> Result<(), OutputError> {
+    fn spheres(&self, grains: &View<'_>, path: &Path) -> Result<(), OutputError> {
         let members = grains.dem.members();
         let points: Vec<[f64; 3]> = members.iter().map(|m| m.position.into()).collect();
         let velocity: Vec<[f64; 3]> = members.iter().map(|m| m.velocity.into()).collect();
         let id = |body: u32| grains.ids[body as usize];
-        PolyData::new(&points, Cells::Points, grains.dem.time())
+        PolyData::new(&points, Cells::Points, grains.time)
             .at_points("velocity_m_per_s", &velocity)
             .at_points("radius_m", &members.iter().map(|m| [m.radius]).collect::<Vec<_>>())
             .count_at_points("number", members.iter().map(|m| i64::from(id(m.body))))
@@ -142,7 +169,7 @@ impl<'a> Writer<'a> {
     }
 
     /// One table per set, as a scene can read it.
-    fn tables(&self, grains: &Grains) -> Result<(), OutputError> {
+    pub fn tables(&self, grains: &View<'_>) -> Result<(), OutputError> {
         let b = grains.dem.bodies();
         for (name, range) in &self.plan.sets {
             let mut table = Series::new(&COLUMNS);
@@ -165,8 +192,8 @@ fn triples(vectors: &[crate::dem::V3]) -> Vec<[f64; 3]> {
 }
 
 /// The contact network: a line per contact, from centre to centre, or from centre to wall.
-fn contacts(grains: &Grains, path: &Path) -> Result<(), OutputError> {
-    let dem = &grains.dem;
+fn contacts(grains: &View<'_>, path: &Path) -> Result<(), OutputError> {
+    let dem = grains.dem;
     let members = dem.members();
     let (mut points, mut force, mut strength, mut overlap) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut add =
@@ -188,7 +215,7 @@ fn contacts(grains: &Grains, path: &Path) -> Result<(), OutputError> {
         }
     }
     let lines: Vec<[u32; 2]> = (0..points.len() as u32 / 2).map(|k| [2 * k, 2 * k + 1]).collect();
-    PolyData::new(&points, Cells::Lines(&lines), dem.time())
+    PolyData::new(&points, Cells::Lines(&lines), grains.time)
         .at_cells("force_n", &force)
         .at_cells("normal_force_n", &strength)
         .at_cells("overlap_m", &overlap)

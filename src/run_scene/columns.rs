@@ -1,5 +1,6 @@
 //! The fluid seen as columns normal to the bed: bed, depth, surface, mean velocity.
 
+use crate::free_surface::Kind;
 use crate::geometry::Axis;
 use crate::solver::run::Fields;
 use crate::solver::setup::Setup;
@@ -46,7 +47,8 @@ impl Upright {
         columns
     }
 
-    fn column(
+    /// The column through a cell; what grains cover below fluid counts as depth.
+    pub fn column(
         self,
         setup: &Setup,
         fields: &Fields,
@@ -62,6 +64,8 @@ impl Upright {
         let (mut bed, mut wet, mut depth, mut flux) = (0, false, 0.0, [0.0; 3]);
         // Solids at the bottom, until the first cell that is none; later ones only below fluid.
         let mut footing = true;
+        // Fluid, and cells that grains cover since the last of it.
+        let (mut moving, mut covered) = (0.0, 0.0);
         for k in 0..n {
             cell[self.up.index()] = if self.down_is_low { k } else { n - 1 - k };
             let index = setup.index(cell);
@@ -72,7 +76,10 @@ impl Upright {
                 continue;
             }
             footing = false;
+            let counted = |fill: f64| (fill - (cut - k as f64).clamp(0.0, 1.0)).clamp(0.0, 1.0);
             if !fields.is_fluid(index, false) {
+                let is_grain = fields.kind.get(index) == Some(&(Kind::Solid as u8));
+                covered += if is_grain { counted(1.0) } else { 0.0 };
                 continue;
             }
             let fill = fields.fill.get(index).copied().unwrap_or(1.0).clamp(0.0, 1.0);
@@ -80,15 +87,17 @@ impl Upright {
                 wet = true;
                 bed = (0..k).rev().find(|&below| is_solid_at(self, setup, cell, below)).map_or(0, |s| s + 1);
             }
-            let counted = (fill - (cut - k as f64).clamp(0.0, 1.0)).clamp(0.0, 1.0);
-            depth += counted;
+            let counted = counted(fill);
+            depth += counted + covered;
+            moving += counted;
+            covered = 0.0;
             for c in 0..3 {
                 flux[c] += counted * fields.velocity[index][c];
             }
         }
         let height = |cells: usize| units.length_to_si(cells as f64);
         let bed = if self.down_is_low { height(bed) } else { height(n) - height(bed) };
-        let mean = if depth > 0.0 { flux.map(|f| f / depth) } else { [0.0; 3] };
+        let mean = if moving > 0.0 { flux.map(|f| f / moving) } else { [0.0; 3] };
         Column { bed, depth: units.length_to_si(depth), velocity: units.velocities_to_si(mean) }
     }
 

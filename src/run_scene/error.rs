@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::dem::DemError;
 use crate::output::OutputError;
 use crate::plan::Plan;
 use crate::run_grains::GrainStopReport;
@@ -55,8 +56,13 @@ pub struct StopReport {
 }
 
 impl StopReport {
-    pub(super) fn new(plan: &Plan, scene: &Scene, stopped: &Stopped) -> Self {
+    /// `failure`: what the discrete element method says.
+    pub(super) fn new(plan: &Plan, scene: &Scene, stopped: &Stopped, failure: Option<&DemError>) -> Self {
         let units = &plan.units;
+        let name = |grain: u32| match &plan.grains {
+            Some(coupled) => coupled.grains.name(grain as usize),
+            None => format!("grain {grain}"),
+        };
         let found = match stopped.what {
             Runaway::NotFinite => "density or velocity is not a finite number".to_owned(),
             Runaway::NoDensity { density } => {
@@ -67,8 +73,16 @@ impl StopReport {
                     "mass changed by {residual:.3e} of the whole in one step; rounding allows {bound:.1e}"
                 )
             }
-            Runaway::Grains { grain } => format!("grain {grain} could not go on"),
-            Runaway::GrainTooFast { speed, limit, .. } | Runaway::TooFast { speed, limit } => format!(
+            Runaway::Grains { grain } => match failure {
+                Some(error) => format!("{}: {error}", name(grain)),
+                None => format!("{} could not go on", name(grain)),
+            },
+            Runaway::GrainTooFast { grain, speed, limit } => format!(
+                "{} moves at {:.4e} m/s, {speed:.3} cells per step; the limit is {limit}",
+                name(grain),
+                units.velocity_to_si(speed)
+            ),
+            Runaway::TooFast { speed, limit } => format!(
                 "{:.4e} m/s, {speed:.3} cells per step; the limit is {limit}",
                 units.velocity_to_si(speed)
             ),
@@ -91,6 +105,12 @@ fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
     let numbers = &plan.numbers;
     if matches!(stopped.what, Runaway::Ledger { .. }) {
         "a defect of the solver; please report the scene"
+    } else if matches!(stopped.what, Runaway::Grains { .. }) {
+        "an impact too fast or a load too high for this Young's modulus; stiffer material, more \
+         `grains.coupling.sub_steps`, or a higher `grains.numerics.design_speed_m_per_s`"
+    } else if matches!(stopped.what, Runaway::GrainTooFast { .. }) {
+        "grains fall faster than the velocity scale assumed; give `numerics.reference_velocity_m_per_s` or a smaller \
+         time step"
     } else if stopped.tau < 0.52
         && numbers.depth_cells.is_some()
         && plan.setup.wall_rule == WallRule::ViscosityIndependent
@@ -120,7 +140,10 @@ impl fmt::Display for StopReport {
         let [x, y, z] = self.position_m;
         writeln!(f, "{}: stopped at step {}, time {:.6} s", self.file, self.step, self.time_s)?;
         writeln!(f, "  where: cell ({i}, {j}, {k}), at ({x:.6}, {y:.6}, {z:.6}) m")?;
-        writeln!(f, "  found: {}; relaxation time {:.4}", self.found, self.tau)?;
+        // Guards of grains have no relaxation time.
+        let tau =
+            if self.tau.is_nan() { String::new() } else { format!("; relaxation time {:.4}", self.tau) };
+        writeln!(f, "  found: {}{tau}", self.found)?;
         writeln!(f, "  likely cause: {}", self.cause)?;
         write!(f, "  files written before stay as they are")
     }

@@ -2,6 +2,7 @@
 
 mod columns;
 mod error;
+mod grains;
 mod mesh;
 mod pictures;
 mod probes;
@@ -13,10 +14,13 @@ use std::time::Instant;
 
 pub use error::{RunError, StopReport};
 
+use crate::coupling::Immersed;
 use crate::output::progress::Progress;
 use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::solver::run::{Backend, Fields, Run};
+use crate::solver::plain::Plain;
+use crate::solver::run::{Backend, Fields, Run, StartError};
+use crate::solver::setup::{Precision, Setup};
 use crate::solver::steady::residual;
 use schedule::Schedule;
 use writer::{Writer, summary};
@@ -67,8 +71,11 @@ pub fn run(scene: &Scene, plan: &Plan, options: &Options) -> Result<Finished, Ru
     setup.threads = options.threads.max(1);
     let steps = options.until_s.map_or(plan.steps, |until| schedule::steps_until(until, &plan.units));
     let mut writer = Writer::new(scene, plan, &options.out)?;
-    let mut run = options.backend.start(&setup).map_err(RunError::Start)?;
+    let (mut run, backend) = start(options.backend, &setup).map_err(RunError::Start)?;
     let progress = Progress::new(&plan.numbers.title, steps, options.quiet);
+    if backend != options.backend.name() {
+        progress.note(&format!("grains in a fluid are run by the {backend} backend"));
+    }
     let mut driver = Driver {
         scene,
         plan,
@@ -81,13 +88,30 @@ pub fn run(scene: &Scene, plan: &Plan, options: &Options) -> Result<Finished, Ru
         last_check: None,
         residual: None,
         at_rest_since: None,
+        backend,
     };
     let result = driver.drive(run.as_mut(), &mut writer);
     progress.finish();
     result
 }
 
+/// Starts a run, on the plain backend where the one asked for does not have grains; and the name of the one it is.
+fn start(backend: &dyn Backend, setup: &Setup) -> Result<(Box<dyn Run>, &'static str), StartError> {
+    match backend.start(setup) {
+        Ok(run) if setup.grains.is_some() && run.grains().is_none() => {}
+        Err(StartError::Unsupported { .. }) if setup.grains.is_some() => {}
+        started => return started.map(|run| (run, backend.name())),
+    }
+    if setup.precision != Precision::Double {
+        let feature = "grains in a fluid";
+        return Err(StartError::Together { precision: setup.precision.name(), feature });
+    }
+    Plain.start(setup).map(|run| (run, Plain.name()))
+}
+
 struct Driver<'a> {
+    /// Name of the backend that runs.
+    backend: &'static str,
     scene: &'a Scene,
     plan: &'a Plan,
     options: &'a Options<'a>,
@@ -106,8 +130,12 @@ struct Driver<'a> {
 impl Driver<'_> {
     fn drive(&mut self, run: &mut dyn Run, writer: &mut Writer) -> Result<Finished, RunError> {
         let mut fields = run.fields();
+        if let Some(grains) = &mut writer.grains {
+            grains.begin(run);
+        }
         writer.row(run, &fields)?;
         writer.fields(run, &fields)?;
+        writer.grains(run)?;
         let (mut steady, mut arrested) = (false, false);
         while run.step() < self.schedule.end && !steady && !arrested {
             let due = self.schedule.next(run.step());
@@ -116,17 +144,22 @@ impl Driver<'_> {
             drop(std::mem::take(&mut fields));
             fields = run.fields();
             steady = self.schedule.steady.take_if_due(due) && self.is_steady(&fields);
-            arrested = self.schedule.arrested.take_if_due(due) && self.is_arrested(run, &fields);
+            arrested = self.schedule.arrested.take_if_due(due) && self.is_arrested(run, &fields, writer);
             let last = steady || arrested || due >= self.schedule.end;
             if self.schedule.series.take_if_due(due) || last {
                 writer.row(run, &fields)?;
             }
-            if self.schedule.fields.take_if_due(due) || last {
+            let files = self.schedule.fields.take_if_due(due) || last;
+            if files {
                 writer.fields(run, &fields)?;
                 self.progress.note(&self.line(run, &fields));
             }
+            if self.schedule.grains.take_if_due(due) || last || (files && self.scene.output.grains.is_none())
+            {
+                writer.grains(run)?;
+            }
         }
-        writer.finish(&fields)?;
+        writer.finish(run, &fields)?;
         let finished = Finished { steady, arrested, ..self.finished(run) };
         self.summary(run, &fields, writer, &finished, None)?;
         Ok(finished)
@@ -134,7 +167,8 @@ impl Driver<'_> {
 
     /// Steps up to `due` in pieces, so that the bar moves.
     fn advance(&mut self, run: &mut dyn Run, due: u64, writer: &mut Writer) -> Result<(), RunError> {
-        let piece = (UPDATES_PER_MOVE / run.fluid_cells().max(1)).max(1);
+        let every_step = writer.every_step();
+        let piece = if every_step { 1 } else { (UPDATES_PER_MOVE / run.fluid_cells().max(1)).max(1) };
         while run.step() < due {
             let (from, cells) = (run.step(), run.fluid_cells());
             let clock = Instant::now();
@@ -144,12 +178,16 @@ impl Driver<'_> {
             self.updates += 0.5 * (cells + run.fluid_cells()) as f64 * (run.step() - from) as f64;
             self.progress.set(run.step());
             if let Err(stopped) = result {
-                let report = StopReport::new(self.plan, self.scene, &stopped);
+                let failure = run.grains().and_then(Immersed::failure);
+                let report = StopReport::new(self.plan, self.scene, &stopped, failure);
                 let finished = self.finished(run);
                 writer.finish_series()?;
                 let fields = run.fields();
                 self.summary(run, &fields, writer, &finished, Some(report.to_string()))?;
                 return Err(RunError::Stopped(Box::new(report)));
+            }
+            if let Some(grains) = writer.grains.as_mut().filter(|_| every_step) {
+                grains.sample(run);
             }
         }
         Ok(())
@@ -163,11 +201,13 @@ impl Driver<'_> {
         self.residual.is_some_and(|r| r <= tolerance)
     }
 
-    /// Whether every check of the last `for_s` found the fluid slower than the limit.
-    fn is_arrested(&mut self, run: &dyn Run, fields: &Fields) -> bool {
+    /// Whether every check of the last `for_s` found fluid and grains slower than the limit.
+    fn is_arrested(&mut self, run: &dyn Run, fields: &Fields, writer: &Writer) -> bool {
         let Some(rule) = self.scene.stop.arrested else { return false };
         let time = self.plan.units.time_to_si(run.step() as f64);
-        if self.plan.units.velocity_to_si(probes::weighted_speed(fields)) >= rule.speed_m_per_s {
+        let grains = writer.grains.as_ref().map_or(0.0, |grains| grains.max_speed(run));
+        let fluid = self.plan.units.velocity_to_si(probes::weighted_speed(fields));
+        if fluid.max(grains) >= rule.speed_m_per_s {
             self.at_rest_since = None;
             return false;
         }
@@ -214,7 +254,8 @@ impl Driver<'_> {
     ) -> Result<(), RunError> {
         let change = (run.totals().mass_excess - self.mass_at_start) / run.fluid_cells().max(1) as f64;
         let mut summary = summary(self.scene, self.plan, run, fields);
-        summary.backend = self.options.backend.name().to_owned();
+        summary.backend = self.backend.to_owned();
+        summary.grains = writer.grains.as_ref().and_then(|grains| grains.summary(run));
         summary.threads = self.options.threads.max(1);
         summary.wall_seconds = finished.wall_seconds;
         summary.million_updates_per_second = finished.million_updates_per_second;

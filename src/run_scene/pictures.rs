@@ -3,12 +3,13 @@
 use super::error::RunError;
 use super::probes::{PROFILE_COLUMNS, SECTION_COLUMNS, columns, is_fluid, profile, unyielded};
 use super::writer::Writer;
+use crate::free_surface::Kind;
 use crate::geometry::Axis as Direction;
 use crate::output::picture::{self, Picture};
 use crate::output::plot::{Axis, Plot, Series as Curve};
 use crate::output::{OutputError, atomic, svg};
 use crate::scene::Measure;
-use crate::solver::run::Fields;
+use crate::solver::run::{Fields, Run};
 use crate::solver::setup::Face;
 
 /// Most curves of a section at different times.
@@ -16,17 +17,27 @@ const CURVES: usize = 6;
 
 impl Writer<'_> {
     /// Series and plots at the end.
-    pub fn finish(&self, fields: &Fields) -> Result<(), RunError> {
+    pub fn finish(&self, run: &dyn Run, fields: &Fields) -> Result<(), RunError> {
         self.finish_series()?;
-        self.plots(fields).map_err(RunError::Output)
+        self.plots(fields).map_err(RunError::Output)?;
+        let Some(grains) = &self.grains else { return Ok(()) };
+        let time = self.sampler.units.time_to_si(run.step() as f64);
+        grains.finish(run, time, &self.series, &self.title).map_err(RunError::Output)
     }
 
     fn plots(&self, fields: &Fields) -> Result<(), OutputError> {
         let mut column = 1;
         for probe in &self.probes {
-            let count = columns(probe).len();
+            let count = columns(probe, self.grains.is_some()).len();
             if matches!(probe.measure, Measure::Force { .. }) {
-                for (what, range) in [("force", 0..3), ("impulse", 3..6), ("wetted_area", 6..12)] {
+                let parts = [
+                    ("force", 0..3),
+                    ("impulse", 3..6),
+                    ("wetted_area", 6..12),
+                    ("contact", 12..15),
+                    ("contact_impulse", 16..19),
+                ];
+                for (what, range) in parts.into_iter().filter(|(_, range)| range.end <= count) {
                     let range = column + range.start..column + range.end;
                     self.series_plot(&format!("{what}_{}", probe.name), range)?;
                 }
@@ -141,9 +152,11 @@ impl Writer<'_> {
                 cells.push(self.setup.index(cell));
             }
         }
+        // Cells inside grains are solid at the moment.
+        let solid = |c: usize| self.setup.is_solid(c) || fields.kind.get(c) == Some(&(Kind::Solid as u8));
         let speed = |c: &usize| {
             // Air stays white.
-            if !self.setup.is_solid(*c) && !is_fluid(self.setup, fields, *c) {
+            if !solid(*c) && !is_fluid(self.setup, fields, *c) {
                 return f64::NAN;
             }
             let [x, y, z] = self.sampler.units.velocities_to_si(fields.velocity[*c]);
@@ -160,10 +173,10 @@ impl Writer<'_> {
             length_unit: "m".to_owned(),
             axes: [a, b].map(|axis| Direction::ALL[axis].letter().to_string()),
             values: cells.iter().map(speed).collect(),
-            solid: if self.setup.solids.is_empty() {
+            solid: if self.setup.solids.is_empty() && self.grains.is_none() {
                 Vec::new()
             } else {
-                cells.iter().map(|&c| self.setup.is_solid(c)).collect()
+                cells.iter().map(|&c| solid(c)).collect()
             },
             unyielded: if has_plug { cells.iter().map(|&c| plug[c]).collect() } else { Vec::new() },
         };

@@ -1,6 +1,7 @@
 //! Measurements on fields, in SI units. Gas and solid cells never count.
 
 use super::columns::{Upright, front};
+use super::grains::CONTACT_COLUMNS;
 use crate::geometry::Axis;
 use crate::scene::{Measure, Probe, Scene};
 use crate::solver::run::{Fields, Load, Run};
@@ -51,8 +52,9 @@ pub(super) fn unyielded(setup: &Setup, fields: &Fields) -> Vec<bool> {
     cells.map(|(c, &omega)| is_fluid(setup, fields, c) && is_unyielded(omega, setup.yielding)).collect()
 }
 
-/// Name and unit of the series columns of a probe; none for profiles and maps.
-pub(super) fn columns(probe: &Probe) -> Vec<(String, &'static str)> {
+/// Name and unit of the series columns of a probe; none for profiles and maps. With grains a force has a part of
+/// contacts.
+pub(super) fn columns(probe: &Probe, with_grains: bool) -> Vec<(String, &'static str)> {
     let one = |unit| vec![(probe.name.clone(), unit)];
     let several = |parts: &[(&str, &'static str)]| {
         parts.iter().map(|(part, unit)| (format!("{}_{part}", probe.name), *unit)).collect()
@@ -70,6 +72,7 @@ pub(super) fn columns(probe: &Probe) -> Vec<(String, &'static str)> {
         Measure::WindowVelocity { .. } => {
             several(&[("x", "m/s"), ("y", "m/s"), ("z", "m/s"), ("volume", "m^3")])
         }
+        Measure::Force { .. } if with_grains => several(&[&FORCE_COLUMNS[..], &CONTACT_COLUMNS[..]].concat()),
         Measure::Force { .. } => several(&FORCE_COLUMNS),
         Measure::Ledger => several(&[
             ("mass", "kg"),

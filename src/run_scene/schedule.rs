@@ -15,6 +15,7 @@ pub(crate) fn steps_until(time_s: f64, units: &Units) -> u64 {
 pub(super) struct Schedule {
     pub end: u64,
     pub fields: Ticker,
+    pub grains: Ticker,
     pub series: Ticker,
     pub steady: Ticker,
     pub arrested: Ticker,
@@ -29,6 +30,7 @@ impl Schedule {
             end,
             arrested: arrested.map_or(Ticker::never(), ticker),
             fields: scene.output.fields.map_or(Ticker::never(), ticker),
+            grains: scene.output.grains.map_or(Ticker::never(), ticker),
             series: ticker(scene.output.series.unwrap_or(Cadence::Count(DEFAULT_ROWS))),
             steady: steady.map_or(Ticker::never(), ticker),
         }
@@ -37,7 +39,8 @@ impl Schedule {
     /// The next step after `now` at which anything is due.
     pub fn next(&self, now: u64) -> u64 {
         let checks = self.steady.next().min(self.arrested.next());
-        let next = self.fields.next().min(self.series.next()).min(checks);
+        let files = self.fields.next().min(self.grains.next());
+        let next = files.min(self.series.next()).min(checks);
         next.clamp(now + 1, self.end.max(now + 1))
     }
 }

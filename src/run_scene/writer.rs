@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::error::RunError;
+use super::grains::GrainPart;
 use super::mesh::free_surface;
 use super::probes::{PROFILE_COLUMNS, SECTION_COLUMNS, Sampler, columns, is_fluid, profile, unyielded};
 use crate::output::csv::Series;
@@ -26,6 +27,7 @@ pub(super) struct Writer<'a> {
     collection: Collection,
     surfaces: Collection,
     written: usize,
+    pub(super) grains: Option<GrainPart<'a>>,
 }
 
 /// A section at one time, kept for the plot at the end.
@@ -41,12 +43,18 @@ impl<'a> Writer<'a> {
             std::fs::create_dir_all(&path).map_err(|source| RunError::Folder { path, source })?;
         }
         let mut probes = scene.output.probes.clone();
-        if !probes.iter().any(|probe| !columns(probe).is_empty()) {
+        let with_grains = plan.grains.is_some();
+        if !probes.iter().any(|probe| !columns(probe, with_grains).is_empty()) {
             let probe = |name: &str, measure| Probe { name: name.to_owned(), measure };
             probes.push(probe("max_speed", Measure::MaxSpeed));
             probes.push(probe("kinetic_energy", Measure::KineticEnergy));
         }
-        let named: Vec<_> = probes.iter().flat_map(columns).collect();
+        let mut named: Vec<_> = probes.iter().flat_map(|probe| columns(probe, with_grains)).collect();
+        let first = 1 + named.len();
+        let grains = plan.grains.as_ref().map(|coupled| {
+            named.extend(GrainPart::columns(coupled));
+            GrainPart::new(coupled, plan.units, folder, first)
+        });
         let mut header = vec![("time", "s")];
         header.extend(named.iter().map(|(name, unit)| (name.as_str(), *unit)));
         Ok(Self {
@@ -60,6 +68,7 @@ impl<'a> Writer<'a> {
             collection: Collection::default(),
             surfaces: Collection::default(),
             written: 0,
+            grains,
         })
     }
 
@@ -77,6 +86,13 @@ impl<'a> Writer<'a> {
         let mut row = vec![self.time(run)];
         for probe in &self.probes {
             row.extend(self.sampler.values(&probe.measure, run, fields));
+            if let (Measure::Force { solid }, Some(grains)) = (&probe.measure, &self.grains) {
+                row.extend(grains.contact_values(solid));
+            }
+        }
+        let (time, upright) = (self.time(run), self.sampler.upright);
+        if let Some(grains) = &mut self.grains {
+            row.extend(grains.values(run, fields, upright, time));
         }
         self.series.push(&row).map_err(RunError::Output)
     }
@@ -84,14 +100,31 @@ impl<'a> Writer<'a> {
     /// Writes one set of fields, surfaces, profiles and maps, and the series so far.
     pub fn fields(&mut self, run: &dyn Run, fields: &Fields) -> Result<(), RunError> {
         let time = self.time(run);
-        self.snapshot(time, fields).map_err(RunError::Output)?;
+        let covered = run.grains().map(|grains| {
+            (0..self.setup.cells()).map(|cell| u8::from(grains.is_covered(cell))).collect::<Vec<u8>>()
+        });
+        self.snapshot(time, fields, covered.as_deref()).map_err(RunError::Output)?;
         self.written += 1;
         self.finish_series()
     }
 
-    fn snapshot(&mut self, time: f64, fields: &Fields) -> Result<(), OutputError> {
+    /// Writes the grains.
+    pub fn grains(&mut self, run: &dyn Run) -> Result<(), RunError> {
+        let time = self.time(run);
+        match &mut self.grains {
+            Some(grains) => grains.snapshot(run, time).map_err(RunError::Output),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether forces of contacts have to be looked at in every step.
+    pub fn every_step(&self) -> bool {
+        self.grains.is_some() && self.probes.iter().any(|p| matches!(p.measure, Measure::Force { .. }))
+    }
+
+    fn snapshot(&mut self, time: f64, fields: &Fields, covered: Option<&[u8]>) -> Result<(), OutputError> {
         let name = format!("fields_{:06}.vti", self.written);
-        self.image(&name, time, fields)?;
+        self.image(&name, time, fields, covered)?;
         self.collection.push(time, &name);
         self.collection.write(&self.path("run.pvd"))?;
         if self.setup.free_surface.is_some() {
@@ -123,7 +156,13 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn image(&self, name: &str, time: f64, fields: &Fields) -> Result<(), OutputError> {
+    fn image(
+        &self,
+        name: &str,
+        time: f64,
+        fields: &Fields,
+        covered: Option<&[u8]>,
+    ) -> Result<(), OutputError> {
         let units = &self.sampler.units;
         let fluid: Vec<bool> = (0..self.setup.cells()).map(|c| is_fluid(self.setup, fields, c)).collect();
         let pressure: Vec<f64> = (fields.density.iter().zip(&fluid))
@@ -146,6 +185,9 @@ impl<'a> Writer<'a> {
             .mask("unyielded", &plug);
         if !fields.kind.is_empty() {
             image = image.scalar("fill", &fields.fill).mask("kind", &fields.kind).mask("yielded", &yielded);
+        }
+        if let Some(covered) = covered {
+            image = image.mask("covered", covered);
         }
         if !solid.is_empty() {
             image = image.mask("solid", &solid);
@@ -212,6 +254,7 @@ pub(super) fn summary(scene: &Scene, plan: &Plan, run: &dyn Run, fields: &Fields
         speed_m_per_s: Extrema::of(cells.filter(fluid).map(speed)),
         fingerprint: run.fingerprint(),
         free_surface: run.ledger().map(|ledger| surface_summary(plan, &ledger)),
+        grains: None,
         stopped: None,
     }
 }
@@ -233,6 +276,8 @@ fn surface_summary(plan: &Plan, ledger: &Ledger) -> SurfaceSummary {
         from_faces_n_s: vector(ledger.from_faces),
         from_solids_n_s: vector(ledger.from_solids),
         from_gas_n_s: vector(ledger.from_gas),
+        from_grains_n_s: vector(ledger.from_grains),
+        from_grains_kg: ledger.mass_from_grains * mass,
         from_conversions_n_s: vector(ledger.from_conversions),
         momentum_residual_n_s: ledger.momentum_residual * momentum,
         liquid_cells: ledger.liquid_cells,

@@ -176,11 +176,16 @@ pub enum SceneProblem {
     /// A name of no solid.
     #[error("no solid is named `{name}`{}\n  allowed: {}\n  way out: {}", did_you_mean(.nearest.as_ref()), if .solids.is_empty() { "names of `solids`; there is none".to_owned() } else { list(.solids) }, rename_or_add(.nearest.as_ref()))]
     UnknownSolid { name: String, nearest: Option<String>, solids: Vec<String> },
-    /// Both at once.
+    /// Only with fluid.
     #[error(
-        "the scene has `fluid` and `grains`\n  allowed: one of the two; grains do not move in a fluid yet\n  way out: leave one of them out"
+        "this measure needs a fluid around the grains\n  allowed: only in scenes with `fluid`\n  way out: remove the probe"
     )]
-    FluidAndGrains,
+    NeedsFluid,
+    /// Not together with grains in the fluid.
+    #[error(
+        "{what} cannot be had together with grains\n  allowed: {allowed}\n  way out: leave one of them out"
+    )]
+    NotWithGrains { what: &'static str, allowed: &'static str },
     /// A name of nothing.
     #[error("no {kind} is named `{name}`{}\n  allowed: {}\n  way out: {}", did_you_mean(.nearest.as_ref()), if .names.is_empty() { format!("names of a {kind}; there is none") } else { list(.names) }, rename_or_define(.nearest.as_ref(), .kind))]
     UnknownName { kind: &'static str, name: String, nearest: Option<String>, names: Vec<String> },

@@ -256,4 +256,7 @@ pub struct Solid {
     /// Centre of rotation, m; the centre of the shape when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub centre_m: Option<[f64; 3]>,
+    /// Material that grains touch, one of `grains.materials`; the first one when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
 }

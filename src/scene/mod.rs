@@ -1,6 +1,7 @@
 //! The scene file: SI units, checked, nothing numerical yet.
 
 mod check;
+mod coupled;
 mod domain;
 pub mod dry;
 mod error;
@@ -9,13 +10,14 @@ mod nearest;
 mod numerics;
 mod parse;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Axis;
 
+pub use coupled::{Coupling, GrainRefillChoice, GrainWallChoice, LubricationChoice, LubricationRules};
 pub use domain::{Boundaries, Boundary, Domain, FACE_KEYS};
 pub use error::{Located, SceneError, SceneProblem};
 pub use fluid::{
@@ -51,9 +53,12 @@ pub struct Scene {
     /// Parts of the box that hold another fluid.
     #[serde(default)]
     pub layers: Vec<Layer>,
-    /// Fixed solids.
+    /// Fixed solids; with `grains` they are walls of the grains too.
     #[serde(default)]
     pub solids: Vec<Solid>,
+    /// Grains in the fluid, which push it and are pushed by it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grains: Option<dry::Grains>,
     /// Numerical choices.
     #[serde(default)]
     pub numerics: Numerics,
@@ -65,6 +70,9 @@ pub struct Scene {
     /// Name of the file it came from, for messages.
     #[serde(skip)]
     pub file: String,
+    /// Folder of that file: tables of grains are looked for there.
+    #[serde(skip)]
+    pub folder: PathBuf,
 }
 
 impl Scene {
@@ -82,7 +90,7 @@ impl Scene {
 #[derive(Clone, Debug, PartialEq, JsonSchema)]
 #[schemars(untagged)]
 pub enum AnyScene {
-    /// With fluid.
+    /// With fluid, and grains in it if there are any.
     Flow(Box<Scene>),
     /// Grains without fluid.
     Dry(Box<dry::DryScene>),
@@ -94,10 +102,10 @@ pub enum AnyScene {
 /// As [`load`].
 pub fn read(path: &Path) -> Result<AnyScene, SceneError> {
     let (text, file) = text_of(path)?;
-    if parse::subject(&text) != parse::Subject::Dry {
-        return from_json(&text, &file).map(|scene| AnyScene::Flow(Box::new(scene)));
-    }
     let folder = path.parent().unwrap_or(Path::new("."));
+    if !parse::is_dry(&text) {
+        return flow_from_json(&text, &file, folder).map(|scene| AnyScene::Flow(Box::new(scene)));
+    }
     dry_from_json(&text, &file, folder).map(|scene| AnyScene::Dry(Box::new(scene)))
 }
 
@@ -129,7 +137,7 @@ fn text_of(path: &Path) -> Result<(String, String), SceneError> {
 /// make no sense. The message names the file (without its folder) and the JSON path.
 pub fn load(path: &Path) -> Result<Scene, SceneError> {
     let (text, file) = text_of(path)?;
-    from_json(&text, &file)
+    flow_from_json(&text, &file, path.parent().unwrap_or(Path::new(".")))
 }
 
 /// Checks a scene given as text; `file` is the name used in messages.
@@ -137,11 +145,17 @@ pub fn load(path: &Path) -> Result<Scene, SceneError> {
 /// # Errors
 /// As [`load`].
 pub fn from_json(text: &str, file: &str) -> Result<Scene, SceneError> {
-    if parse::subject(text) == parse::Subject::Both {
-        return Err(SceneError::new(file, "grains", SceneProblem::FluidAndGrains));
-    }
+    flow_from_json(text, file, Path::new("."))
+}
+
+/// The same; `folder` is where tables of grains are looked for.
+///
+/// # Errors
+/// As [`load`].
+pub fn flow_from_json(text: &str, file: &str, folder: &Path) -> Result<Scene, SceneError> {
     let mut scene: Scene = parse::parse(text, file)?;
     file.clone_into(&mut scene.file);
+    folder.clone_into(&mut scene.folder);
     check::check(&scene)?;
     Ok(scene)
 }

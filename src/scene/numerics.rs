@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::dry::GrainProbe;
 use crate::geometry::Axis;
 
 /// Numerical choices. All optional: without them the run uses the scheme known to be best.
@@ -240,6 +241,12 @@ pub struct Output {
     /// What the time series and profiles hold.
     #[serde(default)]
     pub probes: Vec<Probe>,
+    /// Files of the grains for ParaView; with the fields when not given. Only with `grains`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grains: Option<Cadence>,
+    /// What the time series holds about the grains. Only with `grains`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub grain_probes: Vec<GrainProbe>,
 }
 
 /// How often; time 0 and the end are always included.
@@ -339,7 +346,9 @@ pub enum Measure {
         max_m: [f64; 3],
     },
     /// Force on a solid, N, its impulse since time 0, N s, and the wetted area of its faces by axis and
-    /// side, m², by momentum exchange; the pressure of the air counts as 0.
+    /// side, m², by momentum exchange; the pressure of the air counts as 0. With grains this is the part of the
+    /// fluid, and that of contacts follows: its mean over the time since the last row, N, its largest value in that
+    /// time, N, and its impulse since time 0, N s.
     Force {
         /// Name of the solid.
         solid: String,

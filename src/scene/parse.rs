@@ -35,33 +35,16 @@ pub(super) fn parse<S: DeserializeOwned>(text: &str, file: &str) -> Result<S, Sc
     Ok(scene)
 }
 
-/// What a scene is about, by its keys.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Subject {
-    /// A flow, or nothing that can be told.
-    Flow,
-    /// Grains without fluid.
-    Dry,
-    /// Grains and fluid.
-    Both,
-}
-
-/// Looks for the keys `fluid` and `grains`.
-pub(super) fn subject(text: &str) -> Subject {
+/// Whether a scene is about grains alone, by its keys: `grains` without `fluid`.
+pub(super) fn is_dry(text: &str) -> bool {
     /// Only whether the keys are there.
     #[derive(serde::Deserialize)]
     struct Keys {
         fluid: Option<serde::de::IgnoredAny>,
         grains: Option<serde::de::IgnoredAny>,
     }
-    if !text.trim_start().starts_with('{') {
-        return Subject::Flow;
-    }
-    match serde_json::from_str::<Keys>(text) {
-        Ok(Keys { fluid: Some(_), grains: Some(_) }) => Subject::Both,
-        Ok(Keys { fluid: None, grains: Some(_) }) => Subject::Dry,
-        _ => Subject::Flow,
-    }
+    text.trim_start().starts_with('{')
+        && matches!(serde_json::from_str::<Keys>(text), Ok(Keys { fluid: None, grains: Some(_) }))
 }
 
 fn is_json(text: &str) -> bool {

@@ -72,6 +72,11 @@ pub trait Run {
         None
     }
 
+    /// Takes the grains that are not kept out of the run; `keep` has one entry per grain.
+    fn leave(&mut self, keep: &[bool]) {
+        let _ = keep;
+    }
+
     /// Seconds spent in each pass since the start; empty where a backend does not keep them. For people:
     /// results never depend on them.
     fn pass_seconds(&self) -> Vec<(&'static str, f64)> {

@@ -5,7 +5,7 @@ mod meshes;
 mod numbers;
 mod place;
 mod print;
-mod speed;
+pub(super) mod speed;
 mod walls;
 
 use std::fmt;
@@ -22,6 +22,15 @@ use crate::scene::dry::{DryScene, IntegratorChoice};
 
 const NO_CONTACT_TIME: PlanProblem =
     PlanProblem::GrainScale { quantity: "the duration of the shortest contact" };
+
+/// Walls and grains of a scene, without a time step.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    pub setup: Setup,
+    pub sets: Vec<(String, Range<usize>)>,
+    pub walls: Walls,
+    pub open: [[bool; 2]; 3],
+}
 
 /// Everything a dry run needs, worked out before it starts.
 #[derive(Clone, Debug)]
@@ -55,6 +64,16 @@ impl GrainPlan {
     /// # Errors
     /// As [`GrainPlan::new`].
     pub fn with_memory(scene: &DryScene, available: Option<u64>) -> Result<Self, PlanError> {
+        let placed = Self::placed(scene, available)?;
+        let speed = speed::design(scene, &placed.setup);
+        Self::finish(scene, placed, speed)
+    }
+
+    /// Walls and grains, without a time step.
+    ///
+    /// # Errors
+    /// Grains that do not fit or are outside; files that cannot be read; too little memory.
+    pub(super) fn placed(scene: &DryScene, available: Option<u64>) -> Result<Placed, PlanError> {
         let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
         let (table, slippery) = materials::materials(scene);
         let mut setup = Setup::new(table);
@@ -71,7 +90,16 @@ impl GrainPlan {
         place::inside(scene, &setup, &sets, open).map_err(|(path, problem)| at(&path, problem))?;
         setup.gravity = scene.gravity().into();
         numerics(scene, &mut setup);
-        let speed = speed::design(scene, &setup);
+        Ok(Placed { setup, sets, walls, open })
+    }
+
+    /// Time step and checks; `speed` is that of the fastest impact to be expected, m/s.
+    ///
+    /// # Errors
+    /// Grains that overlap; a time step too long.
+    pub(super) fn finish(scene: &DryScene, placed: Placed, speed: f64) -> Result<Self, PlanError> {
+        let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
+        let Placed { mut setup, sets, walls, open } = placed;
         let given = scene.grains.numerics.design_speed_m_per_s;
         if !speed.is_finite() {
             return Err(at(
@@ -118,7 +146,7 @@ impl fmt::Display for GrainPlan {
     }
 }
 
-fn name(sets: &[(String, Range<usize>)], grain: usize) -> String {
+pub(super) fn name(sets: &[(String, Range<usize>)], grain: usize) -> String {
     let of = sets.iter().find(|(_, range)| range.contains(&grain));
     of.map_or_else(
         || format!("grain {grain}"),
@@ -155,7 +183,7 @@ fn count_steps(scene: &DryScene, dt: f64) -> Result<u64, PlanProblem> {
 }
 
 /// The refusals of the discrete element method, with names and paths of the scene.
-fn refusal(scene: &DryScene, sets: &[(String, Range<usize>)], error: DemError) -> PlanError {
+pub(super) fn refusal(scene: &DryScene, sets: &[(String, Range<usize>)], error: DemError) -> PlanError {
     let (path, problem) = match error {
         DemError::StartOverlap { first, second, overlap_m, allowed_m } => {
             let (first, second) = (name(sets, first), name(sets, second));

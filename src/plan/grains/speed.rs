@@ -8,6 +8,12 @@ use crate::scene::dry::DryScene;
 /// Speed of the fastest impact to be expected, m/s: the fastest grain at time 0, with what it can gain by falling
 /// through the box, towards the fastest wall. 0 if nothing moves.
 pub(super) fn design(scene: &DryScene, setup: &Setup) -> f64 {
+    let (pushed, free) = given_speeds(scene, setup);
+    (free * free + 2.0 * setup.gravity.norm() * fall(scene, setup)).sqrt() + pushed
+}
+
+/// Speeds that the scene gives: of the fastest wall or driven grain, and of the fastest free grain, m/s.
+pub(in crate::plan) fn given_speeds(scene: &DryScene, setup: &Setup) -> (f64, f64) {
     let size = V3::from(scene.domain.size_m);
     let fastest = |driven: bool| {
         let of = setup.grains.iter().filter(|g| g.driven == driven).map(surface_speed);
@@ -19,11 +25,10 @@ pub(super) fn design(scene: &DryScene, setup: &Setup) -> f64 {
         w.motion.velocity.norm() + w.motion.spin.norm() * far.min(size.norm())
     });
     let pushed = walls.fold(0.0, f64::max).max(fastest(true));
-    let (free, fall) = (fastest(false), fall(scene, setup));
-    (free * free + 2.0 * setup.gravity.norm() * fall).sqrt() + pushed
+    (pushed, fastest(false))
 }
 
-fn surface_speed(grain: &Grain) -> f64 {
+pub(in crate::plan) fn surface_speed(grain: &Grain) -> f64 {
     grain.velocity.norm() + grain.spin.norm() * grain.radius
 }
 
@@ -49,7 +54,7 @@ fn fall(scene: &DryScene, setup: &Setup) -> f64 {
 
 /// Bytes of one grain with `members` spheres while a run is planned and computed: its state, its lists with the
 /// number of neighbours of a dense packing, and the set-up it came from.
-pub(super) fn bytes_per_grain(members: f64, gear: bool) -> f64 {
+pub(in crate::plan) fn bytes_per_grain(members: f64, gear: bool) -> f64 {
     let body = 340.0 + if gear { 288.0 } else { 0.0 };
     // Neighbours of a dense packing within the skin, each pair listed once: 7 per sphere.
     let per_member = 230.0 + 7.0 * 230.0;

@@ -1,5 +1,6 @@
 //! Value checks. The first problem found is reported; order is that of the file.
 
+mod coupled;
 mod domain;
 mod fluid;
 mod numerics;
@@ -25,6 +26,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     surface::check(&at, scene)?;
     fluid::check_layers(&at, scene)?;
     fluid::check_solids(&at, scene)?;
+    coupled::check(&at, scene)?;
     numerics::check_numerics(&at, &scene.numerics)?;
     numerics::check_stop(&at, &scene.stop)?;
     output::check(&at, scene)

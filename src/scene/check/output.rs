@@ -15,7 +15,9 @@ pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
         let path = format!("output.probes[{i}]");
         at.name(&format!("{path}.name"), &probe.name, &mut names)?;
         let path = format!("{path}.measure");
-        let surface = scene.fluid.initial.is_some() || !probe.measure.needs_surface();
+        // Loads and ledgers are kept for grains too.
+        let kept = scene.grains.is_some() && matches!(probe.measure, Measure::Force { .. } | Measure::Ledger);
+        let surface = scene.fluid.initial.is_some() || kept || !probe.measure.needs_surface();
         at.ensure(surface, &path, || SceneProblem::NeedsSurface {
             what: "this measure",
             otherwise: "remove the probe",

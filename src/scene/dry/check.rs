@@ -1,7 +1,7 @@
 //! Value checks of scenes without fluid. The first problem found is reported; order is that of the file.
 
 use super::check_place::placement;
-use super::{ClumpMembers, Contact, ContactLaw, DryScene, GrainMeasure, GrainSolid, Target};
+use super::{ClumpMembers, Contact, ContactLaw, DryScene, GrainMeasure, GrainSolid, Needs, Target};
 use crate::geometry::{Axis, Shape};
 use crate::scene::check::{Checker, boundaries, cadence, check_arrested, check_gravity};
 use crate::scene::nearest::nearest;
@@ -14,6 +14,10 @@ pub fn check(scene: &DryScene) -> Result<(), SceneError> {
     if let Some(gravity) = &scene.gravity {
         check_gravity(&at, gravity)?;
     }
+    at.ensure(scene.grains.coupling.is_none(), "grains.coupling", || SceneProblem::UnusedKey {
+        key: "coupling",
+        because: "the scene has no `fluid`",
+    })?;
     materials(&at, scene)?;
     clumps(&at, scene)?;
     sets(&at, scene)?;
@@ -24,8 +28,41 @@ pub fn check(scene: &DryScene) -> Result<(), SceneError> {
     if let Some(arrested) = scene.stop.arrested {
         check_arrested(&at, &arrested, end)?;
     }
-    output(&at, scene)
+    let place = Place { probes: "output.probes", fluid: false, surface: false };
+    cadence(&at, "output.series", scene.output.series, end)?;
+    output(&at, scene, &place)
 }
+
+/// Checks what a scene with fluid, seen as its grains see it, says about them; `surface`: it is free.
+pub fn check_in_fluid(scene: &DryScene, surface: bool) -> Result<(), SceneError> {
+    let at = Checker { file: &scene.file };
+    materials(&at, scene)?;
+    clumps(&at, scene)?;
+    sets(&at, scene)?;
+    numerics(&at, scene)?;
+    let materials: Vec<String> = scene.grains.materials.iter().map(|m| m.name.clone()).collect();
+    for (i, solid) in scene.solids.iter().enumerate() {
+        let path = |key: &str| format!("solids[{i}].{key}");
+        optional_name(&at, &path("material"), "material", solid.material.as_ref(), &materials)?;
+        let shape = solid.shape.as_ref().is_none_or(|shape| touchable(shape, solid.invert));
+        at.ensure(shape, &path("shape"), || SceneProblem::ShapeNotForGrains {
+            what: "touched by grains",
+            allowed: TOUCHABLE,
+            way_out: "several solids, each of them one of these",
+        })?;
+    }
+    output(&at, scene, &Place { probes: "output.grain_probes", fluid: true, surface })
+}
+
+/// Where probes are, and what there is for them.
+struct Place {
+    probes: &'static str,
+    fluid: bool,
+    surface: bool,
+}
+
+const TOUCHABLE: &str = "`box`, `cylinder`, `sphere`, `half_space`, `cone`, `polygon`, `heightfield`, and a `union` of those \
+                         that is not inverted";
 
 fn domain(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
     at.ensure(scene.domain.spacing_m.is_none(), "domain.spacing_m", || SceneProblem::UnusedKey {
@@ -208,8 +245,7 @@ fn body(at: &Checker, i: usize, solid: &GrainSolid, size_m: [f64; 3]) -> Result<
             at.shape(&path("shape"), shape, size_m, solid.invert)?;
             at.ensure(touchable(shape, solid.invert), &path("shape"), || SceneProblem::ShapeNotForGrains {
                 what: "touched by grains",
-                allowed: "`box`, `cylinder`, `sphere`, `half_space`, `cone`, `polygon`, `heightfield`, and a `union` of those \
-                          that is not inverted",
+                allowed: TOUCHABLE,
                 way_out: "several solids, or a `mesh`",
             })
         }
@@ -243,18 +279,62 @@ fn touchable(shape: &Shape, inverted: bool) -> bool {
     }
 }
 
-fn output(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
+fn output(at: &Checker, scene: &DryScene, place: &Place) -> Result<(), SceneError> {
     let end = scene.stop.end_time_s;
     cadence(at, "output.grains", scene.output.grains, end)?;
-    cadence(at, "output.series", scene.output.series, end)?;
     let sets: Vec<String> = scene.grains.sets.iter().map(|s| s.name.clone()).collect();
     let solids: Vec<String> = scene.solids.iter().map(|s| s.name.clone()).collect();
     let mut names = Vec::new();
     for (i, probe) in scene.output.probes.iter().enumerate() {
-        let path = |key: &str| format!("output.probes[{i}].{key}");
+        let path = |key: &str| format!("{}[{i}].{key}", place.probes);
         at.name(&path("name"), &probe.name, &mut names)?;
+        let needs = probe.measure.needs();
+        let there = match needs {
+            Needs::Grains => true,
+            Needs::Fluid => place.fluid,
+            Needs::Surface => place.surface,
+        };
+        at.ensure(there, &path("measure"), || match needs {
+            Needs::Surface if place.fluid => {
+                SceneProblem::NeedsSurface { what: "this measure", otherwise: "remove the probe" }
+            }
+            _ => SceneProblem::NeedsFluid,
+        })?;
         match &probe.measure {
             GrainMeasure::Grain { set, .. } => known(at, &path("measure.grain.set"), "set", set, &sets)?,
+            GrainMeasure::FluidForce { set, .. } => {
+                known(at, &path("measure.fluid_force.set"), "set", set, &sets)?;
+            }
+            GrainMeasure::Submergence { set, .. } => {
+                known(at, &path("measure.submergence.set"), "set", set, &sets)?;
+            }
+            GrainMeasure::SetSpeed { set } => known(at, &path("measure.set_speed.set"), "set", set, &sets)?,
+            GrainMeasure::Segregation { classes, .. } => {
+                let (found, low, high) = (f64::from(classes.unwrap_or(3)), 2.0, 10.0);
+                at.ensure((low..=high).contains(&found), &path("measure.segregation.classes"), || {
+                    SceneProblem::OutOfRange {
+                        found,
+                        unit: "",
+                        low,
+                        high,
+                        because: "sizes are compared with each other, and each class is a column",
+                        way_out: "leave it out for 3",
+                    }
+                })?;
+            }
+            GrainMeasure::GrainFront { share, .. } => {
+                let (found, low, high) = (share.unwrap_or(0.02), 0.0, 0.5);
+                at.ensure(found >= low && found < high, &path("measure.grain_front.share"), || {
+                    SceneProblem::OutOfRange {
+                        found,
+                        unit: "",
+                        low,
+                        high,
+                        because: "0.5 excluded: beyond it there is no front",
+                        way_out: "leave it out for 0.02",
+                    }
+                })?;
+            }
             GrainMeasure::Flux { normal, at_m } => {
                 at.position(&path("measure.flux.at_m"), *normal, *at_m, scene.domain.size_m)?;
             }

@@ -13,11 +13,12 @@ use std::path::PathBuf;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Boundaries, Gravity};
+use super::{Boundaries, Coupling, Gravity};
 use crate::geometry::Shape;
 
-pub(super) use check::check;
+pub(super) use check::{check, check_in_fluid};
 pub use contact::{Contact, ContactLaw, GrainMaterial, PairContact};
+pub(super) use output::Needs;
 pub use output::{GrainMeasure, GrainOutput, GrainProbe, GrainStop, Target};
 pub use place::{
     ClumpMember, ClumpMembers, ClumpShape, GrainAt, GrainSet, LatticeKind, Orientations, Placement,
@@ -97,6 +98,9 @@ pub struct Grains {
     /// Numerical choices.
     #[serde(default)]
     pub numerics: GrainNumerics,
+    /// How grains and fluid act on each other; only in scenes with `fluid`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<Coupling>,
 }
 
 /// Numerical choices; the defaults are the best known.

@@ -91,6 +91,69 @@ pub enum GrainMeasure {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         share: Option<f64>,
     },
+    /// Mean velocity, m/s, and mean speed, m/s, of the grains of a set.
+    SetSpeed {
+        /// Name of the set.
+        set: String,
+    },
+    /// How sizes separate: mean height of each size class, m, smallest grains first; classes hold equal numbers of
+    /// grains.
+    Segregation {
+        /// The axis along which height is measured; z when not given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        up: Option<Axis>,
+        /// Number of classes; 3 when not given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        classes: Option<u32>,
+    },
+    /// Front of the grains, m: the coordinate beyond which lies the given share of their mass.
+    GrainFront {
+        /// The axis along which they run out, towards larger coordinates.
+        along: Axis,
+        /// Share of the mass beyond the front, no unit; 0.02 when not given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        share: Option<f64>,
+    },
+    /// Force, N, and torque, N m, of the fluid on one grain, and force of contacts and lubrication, N: means of the
+    /// last step of the fluid. Only with `fluid`.
+    FluidForce {
+        /// Name of the set.
+        set: String,
+        /// Number within the set, from 0.
+        #[serde(default)]
+        number: u64,
+    },
+    /// Depth of the centre of one grain below the free surface of its column, m, negative above it. Only with a free
+    /// surface.
+    Submergence {
+        /// Name of the set.
+        set: String,
+        /// Number within the set, from 0.
+        #[serde(default)]
+        number: u64,
+    },
+}
+
+/// What a measure needs besides grains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Needs {
+    /// Nothing.
+    Grains,
+    /// A fluid around them.
+    Fluid,
+    /// A fluid with a free surface.
+    Surface,
+}
+
+impl GrainMeasure {
+    /// What it needs besides grains.
+    pub(crate) fn needs(&self) -> Needs {
+        match self {
+            Self::FluidForce { .. } => Needs::Fluid,
+            Self::Submergence { .. } => Needs::Surface,
+            _ => Needs::Grains,
+        }
+    }
 }
 
 /// What a force acts on.

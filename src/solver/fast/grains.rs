@@ -44,6 +44,10 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         self.with_grains(Immersed::exchange);
     }
 
+    pub(super) fn take_grains_out(&mut self, keep: &[bool]) {
+        self.with_grains(|grains, run| grains.leave(run, keep));
+    }
+
     pub(super) fn move_grains(&mut self) -> Result<(), Stopped> {
         self.with_grains(Immersed::advance).unwrap_or(Ok(()))
     }

@@ -39,6 +39,11 @@ impl<P: Physics> SurfaceRun<P> {
         self.with_grains(Immersed::exchange);
     }
 
+    pub(super) fn take_grains_out(&mut self, keep: &[bool]) {
+        self.with_grains(|grains, run| grains.leave(run, keep));
+        self.list_special();
+    }
+
     pub(super) fn move_grains(&mut self) -> Result<(), Stopped> {
         let moved = self.with_grains(|grains, run| {
             let before = *grains.books();

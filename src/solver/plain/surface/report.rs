@@ -121,6 +121,10 @@ impl<P: Physics> Run for SurfaceRun<P> {
         self.grains.as_deref()
     }
 
+    fn leave(&mut self, keep: &[bool]) {
+        self.take_grains_out(keep);
+    }
+
     fn grains_mut(&mut self) -> Option<&mut Immersed> {
         self.grains.as_deref_mut()
     }

@@ -1,0 +1,335 @@
+//! Grains in a fluid: sub-steps, gravity, checks, and what `lahar plan` says about them.
+
+mod classes;
+mod numbers;
+mod print;
+mod speed;
+
+use std::sync::Arc;
+
+pub use classes::ClassNumbers;
+pub(super) use numbers::added_bytes;
+pub use numbers::{CoupledNumbers, LubricationNumbers};
+pub(super) use print::table;
+
+use super::cells::Cells;
+use super::grains::{GrainPlan, Placed, refusal, speed as impact};
+use super::law::apparent_viscosity;
+use super::scale::{Scales, gravity_vector};
+use super::{PlanError, PlanProblem};
+use crate::coupling::{GrainRefill, GrainWall, Lubrication, Suspension};
+use crate::dem::{Dem, Setup as Grains};
+use crate::scene::dry::DryScene;
+use crate::scene::{GrainRefillChoice, GrainWallChoice, LubricationChoice, Scene};
+use crate::solver::setup::Setup;
+use crate::units::Units;
+
+/// Least density of a grain over that of the fluid.
+const LEAST_DENSITY_RATIO: f64 = 0.3;
+/// Below this a density ratio is worth a warning.
+const LOW_DENSITY_RATIO: f64 = 0.5;
+/// Least radius, cells.
+const LEAST_RADIUS: f64 = 1.0;
+/// Gap, cells, down to which the friction of lubrication must be had in full.
+const LUBRICATED_GAP: f64 = 0.1;
+/// Share of a pair's reduced mass over the grains' step that the friction of a gap may reach, as in
+/// [`crate::coupling`].
+const STIFFEST: f64 = 0.5;
+/// Most sub-steps that are chosen.
+const MOST_SUB_STEPS: f64 = 1e6;
+
+/// Grains of a scene with fluid, planned.
+#[derive(Clone, Debug)]
+pub struct Coupled {
+    /// The scene as its grains see it.
+    pub scene: DryScene,
+    /// Their plan; its time step is that of the sub-steps.
+    pub grains: GrainPlan,
+    /// What the solver is asked to do.
+    pub suspension: Arc<Suspension>,
+}
+
+/// Grains placed and checked, before the time step of the fluid is known.
+pub(super) struct Started {
+    view: DryScene,
+    placed: Placed,
+    /// Fastest grain relative to the fluid, m/s.
+    pub slip: f64,
+    /// Fastest wall, driven grain, or grain at time 0, m/s.
+    given: f64,
+    /// Speed that contacts are planned for, m/s.
+    design: f64,
+}
+
+/// Places the grains and raises the scales of the flow to what they will stir up; `None` without grains.
+pub(super) fn start(
+    scene: &Scene,
+    cells: &Cells,
+    scales: &mut Scales,
+    available: Option<u64>,
+) -> Result<Option<Started>, PlanError> {
+    let Some(view) = scene.as_dry() else { return Ok(None) };
+    let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
+    let placed = GrainPlan::placed(&view, available)?;
+    let faces = placed.walls.faces.len();
+    for (i, (_, walls)) in placed.walls.solids.iter().enumerate() {
+        debug_assert!(walls.iter().all(|&wall| wall >= faces));
+        if walls.iter().any(|&wall| placed.setup.walls[wall].shifts()) {
+            return Err(at(&format!("solids[{i}]"), PlanProblem::SolidLeavesCells));
+        }
+    }
+    let setup = &placed.setup;
+    resolution(scene, &placed)?;
+    densities(scene, setup)?;
+    let slips = setup.grains.iter().map(|grain| speed::relative(scene, setup, cells, grain));
+    let slip = slips.fold(0.0, f64::max);
+    let (pushed, free) = impact::given_speeds(&view, setup);
+    let given = pushed.max(free);
+    let mut design = slip + pushed + free + scales.velocity;
+    if design == 0.0 {
+        // Everything rests: contacts of grains that shift by a hundredth of what falling by their size would give.
+        let size = setup.grains.iter().map(|grain| grain.radius).fold(0.0, f64::max);
+        design = 0.01 * (4.0 * setup.gravity.norm() * size).sqrt();
+    }
+    if scene.numerics.reference_velocity_m_per_s.is_none() {
+        scales.velocity = scales.velocity.max(given) + slip;
+        scales.shear_rate = 2.0 * scales.velocity / scales.length;
+        let smallest = setup.grains.iter().map(|grain| grain.radius).fold(f64::INFINITY, f64::min);
+        // Stokes: the rate at the side of a sphere is 3U/(2R).
+        let around = 1.5 * (slip + given) / smallest.max(scene.domain.spacing_m);
+        scales.shear_rate_max = scales.shear_rate_max.max(scales.shear_rate).max(around);
+    }
+    Ok(Some(Started { view, placed, slip, given, design }))
+}
+
+/// Grains of at least a cell's radius.
+fn resolution(scene: &Scene, placed: &Placed) -> Result<(), PlanError> {
+    let dx = scene.domain.spacing_m;
+    for (i, (name, range)) in placed.sets.iter().enumerate() {
+        let Some(grains) = placed.setup.grains.get(range.clone()) else { continue };
+        let least = grains.iter().map(|grain| grain.radius).fold(f64::INFINITY, f64::min);
+        // Half a unit in the last printed digit of slack.
+        if least < LEAST_RADIUS * dx * (1.0 - 1e-9) {
+            let problem = PlanProblem::GrainTooSmall {
+                set: name.clone(),
+                radius: least,
+                cells: least / dx,
+                least: LEAST_RADIUS,
+                spacing: least / LEAST_RADIUS,
+                good: least / 4.0,
+            };
+            return Err(PlanError::new(&scene.file, format!("grains.sets[{i}]"), problem));
+        }
+    }
+    Ok(())
+}
+
+/// Density of every free grain over that of the fluid.
+fn ratios<'a>(scene: &'a Scene, setup: &'a Grains) -> impl Iterator<Item = (usize, f64)> + 'a {
+    let density = scene.fluid.density_kg_per_m3;
+    let free = setup.grains.iter().filter(|grain| !grain.driven);
+    free.map(move |grain| (grain.material, setup.materials.list[grain.material].density_kg_m3 / density))
+}
+
+fn densities(scene: &Scene, setup: &Grains) -> Result<(), PlanError> {
+    match ratios(scene, setup).find(|(_, ratio)| *ratio < LEAST_DENSITY_RATIO) {
+        None => Ok(()),
+        Some((material, ratio)) => Err(PlanError::new(
+            &scene.file,
+            format!("grains.materials[{material}].density_kg_per_m3"),
+            PlanProblem::GrainTooLight {
+                density: setup.materials.list[material].density_kg_m3,
+                ratio,
+                least: LEAST_DENSITY_RATIO,
+                least_density: LEAST_DENSITY_RATIO * scene.fluid.density_kg_per_m3,
+            },
+        )),
+    }
+}
+
+/// What was found on the way to the sub-steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stepping {
+    pub sub_steps: u32,
+    pub given: bool,
+    /// Gap below which the friction of lubrication is limited, cells; 0 without lubrication.
+    pub limited_gap: f64,
+    /// Whether lubrication asked for more steps than contacts.
+    pub for_gaps: bool,
+}
+
+impl Started {
+    /// Sub-steps, gravity and rules; puts the grains into the set-up.
+    pub(super) fn finish(
+        self,
+        scene: &Scene,
+        units: &Units,
+        scales: &Scales,
+        setup: &mut Setup,
+        rule_path: &str,
+    ) -> Result<(Coupled, Findings), PlanError> {
+        let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
+        let Self { view, placed, slip, given, design } = self;
+        let fastest = units.velocity_to_lattice(slip + given);
+        if fastest > setup.speed_limit {
+            let problem = PlanProblem::GrainsTooFast {
+                speed: slip + given,
+                lattice: fastest,
+                limit: setup.speed_limit,
+                dt: units.dt_s,
+                dt_max: units.dt_s * setup.speed_limit / fastest,
+            };
+            return Err(at(rule_path, problem));
+        }
+        let mut grains = GrainPlan::finish(&view, placed, design)?;
+        let rules = scene.coupling();
+        let lubrication = lubrication(rules.lubrication);
+        let viscosity = gap_viscosity(scene, scales);
+        let stepping = sub_steps(scene, units, &grains, lubrication, viscosity)
+            .map_err(|problem| at("grains.coupling.sub_steps", problem))?;
+        let dt = units.dt_s / f64::from(stepping.sub_steps);
+        grains.setup.time_step_s = Some(dt);
+        if stepping.given {
+            // The check that needs the step: a contact must be resolved.
+            Dem::new(&grains.setup).map_err(|error| {
+                let mut refused = refusal(&view, &grains.sets, error);
+                if refused.path == "grains.numerics.time_step_s" {
+                    "grains.coupling.sub_steps".clone_into(&mut refused.path);
+                }
+                refused
+            })?;
+        }
+        grains.steps = (view.stop.end_time_s / units.dt_s).round() as u64 * u64::from(stepping.sub_steps);
+        let n = &mut grains.numbers;
+        n.steps_per_contact *= n.time_step_s / dt;
+        n.time_step_s = dt;
+        n.steps = grains.steps;
+        n.sphere_updates = n.spheres as f64 * grains.steps as f64;
+        let mut suspension = Suspension::new(grains.setup.clone(), *units);
+        suspension.sub_steps = stepping.sub_steps;
+        suspension.wall = match rules.wall {
+            GrainWallChoice::HalfWay => GrainWall::HalfWay,
+            GrainWallChoice::CentralLinear => GrainWall::CentralLinear,
+        };
+        suspension.refill = match rules.refill {
+            GrainRefillChoice::WithStress => GrainRefill::WithStress,
+            GrainRefillChoice::Equilibrium => GrainRefill::Equilibrium,
+            GrainRefillChoice::Neighbours => GrainRefill::Neighbours,
+        };
+        suspension.lubrication = lubrication;
+        suspension.balanced = scene.balanced_axes();
+        let weight = scene.gravity.map_or([0.0; 3], |gravity| gravity_vector(&gravity));
+        let weightless = scene.weightless_axes();
+        suspension.pressure_gradient = std::array::from_fn(|a| {
+            let weight = units.rho0_kg_per_m3 * weight[a];
+            // Not −0: it would show in hashes of the set-up.
+            if weightless[a] && weight != 0.0 { -units.force_to_lattice(weight) } else { 0.0 }
+        });
+        let suspension = Arc::new(suspension);
+        setup.grains = Some(Arc::clone(&suspension));
+        let findings = Findings { slip, fastest, stepping };
+        Ok((Coupled { scene: view, grains, suspension }, findings))
+    }
+}
+
+/// What the table of `lahar plan` needs besides the plan.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Findings {
+    /// m/s.
+    pub slip: f64,
+    /// Cells per step.
+    pub fastest: f64,
+    pub stepping: Stepping,
+}
+
+fn lubrication(choice: LubricationChoice) -> Option<Lubrication> {
+    let LubricationChoice::On(rules) = choice else { return None };
+    let default = Lubrication::default();
+    Some(Lubrication {
+        cutoff: rules.cutoff_cells.unwrap_or(default.cutoff),
+        smallest_gap: rules.smallest_gap_cells.unwrap_or(default.smallest_gap),
+        tangential: rules.tangential.unwrap_or(default.tangential),
+    })
+}
+
+/// Viscosity in a gap that closes, Pa s: at the largest rate expected, without the yield stress.
+fn gap_viscosity(scene: &Scene, scales: &Scales) -> f64 {
+    let law = &scene.fluid.rheology;
+    let rate = scales.shear_rate_max;
+    if rate > 0.0 { apparent_viscosity(law, rate) } else { super::law::parameters(law).k }
+}
+
+/// How many steps of the grains a step of the fluid holds.
+fn sub_steps(
+    scene: &Scene,
+    units: &Units,
+    grains: &GrainPlan,
+    lubrication: Option<Lubrication>,
+    viscosity: f64,
+) -> Result<Stepping, PlanProblem> {
+    let contact_step = grains.numbers.time_step_s;
+    // A share of 1e-9 above a whole number is rounding.
+    let for_contacts = (units.dt_s / contact_step * (1.0 - 1e-9)).ceil().max(1.0);
+    let stiffness = lubrication.map_or(0.0, |_| stiffest_gap(grains, units, viscosity));
+    let cutoff = lubrication.map_or(0.0, |rules| rules.cutoff);
+    // 6πμR²(1/h − 1/h_c) = STIFFEST m n.
+    let steps_for = |gap: f64| (stiffness * (1.0 / gap - 1.0 / cutoff)).max(0.0).ceil();
+    let gap_of = |steps: f64| if stiffness > 0.0 { 1.0 / (steps / stiffness + 1.0 / cutoff) } else { 0.0 };
+    let for_gaps = if stiffness > 0.0 { steps_for(LUBRICATED_GAP.min(cutoff)) } else { 1.0 };
+    let given = scene.coupling().sub_steps;
+    let needed = for_contacts.max(for_gaps);
+    if let Some(steps) = given {
+        let limited_gap = gap_of(f64::from(steps));
+        if limited_gap > LUBRICATED_GAP * (1.0 + 1e-9) && for_gaps > f64::from(steps) {
+            return Err(PlanProblem::LubricationStep {
+                steps,
+                needed: for_gaps,
+                gap: limited_gap,
+                allowed: LUBRICATED_GAP,
+            });
+        }
+        return Ok(Stepping { sub_steps: steps, given: true, limited_gap, for_gaps: false });
+    }
+    if needed.is_nan() || needed > MOST_SUB_STEPS {
+        return Err(PlanProblem::TooManySubSteps { needed, most: MOST_SUB_STEPS });
+    }
+    let sub_steps = needed as u32;
+    let limited_gap = gap_of(needed);
+    Ok(Stepping { sub_steps, given: false, limited_gap, for_gaps: for_gaps > for_contacts })
+}
+
+/// 6πμR²/(0.5 m) in lattice units, of the sphere and grain for which it is largest: against a wall, which is stiffer
+/// than against an equal grain.
+fn stiffest_gap(grains: &GrainPlan, units: &Units, viscosity: f64) -> f64 {
+    let mu = units.viscosity_to_lattice(viscosity);
+    let mass_unit = units.rho0_kg_per_m3 * units.dx_m * units.dx_m * units.dx_m;
+    let setup = &grains.setup;
+    let of = |grain: &crate::dem::Grain| {
+        let density = setup.materials.list[grain.material].density_kg_m3;
+        let cube = grain.radius * grain.radius * grain.radius;
+        let mass = 4.0 / 3.0 * std::f64::consts::PI * density * cube / mass_unit;
+        let share = match grain.shape {
+            crate::dem::Shape::Sphere => 1.0,
+            crate::dem::Shape::Clump(k) => setup.clumps.get(k).map_or(1.0, |clump| {
+                let largest = clump.members.iter().map(|member| member.radius).fold(0.0, f64::max);
+                largest / clump.equivalent_radius()
+            }),
+        };
+        let radius = units.length_to_lattice(share * grain.radius);
+        6.0 * std::f64::consts::PI * mu * radius * radius / (STIFFEST * mass)
+    };
+    setup.grains.iter().filter(|grain| !grain.driven).map(of).fold(0.0, f64::max)
+}
+
+/// What `lahar plan` says about the grains, and its warnings.
+pub(super) fn numbers(
+    scene: &Scene,
+    units: &Units,
+    setup: &Setup,
+    coupled: &Coupled,
+    findings: &Findings,
+    scales: &Scales,
+    mixture_m3: f64,
+) -> (CoupledNumbers, Vec<String>) {
+    numbers::numbers(&numbers::Given { scene, units, setup, coupled, findings, scales, mixture_m3 })
+}
