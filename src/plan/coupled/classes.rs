@@ -118,7 +118,7 @@ mod tests {
     fn exact_groups_of_radii() {
         let lengths = |radii: &[f64]| groups(radii).iter().map(|g| g.len()).collect::<Vec<_>>();
         assert_eq!(lengths(&[1.0, 1.0, 2.0, 3.0, 3.0]), [2, 1, 2]);
-        assert_eq!(lengths(&[]), []);
+        assert!(lengths(&[]).is_empty());
         // From 1 to 64 in steps of 2^(1/4): six octaves, the last with its end.
         let radii: Vec<f64> =
             (0..=24).map(|k| libm::exp2(f64::from(k) / 4.0 + 1e-9 * f64::from(k % 4 + 1))).collect();
