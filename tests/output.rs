@@ -163,6 +163,7 @@ fn exact_summary_round_trip() {
             max_speed: 0.1,
         },
         free_surface: None,
+        grains: None,
         stopped: None,
     };
     let path = folder("summary.json");

@@ -8,7 +8,7 @@ use crate::scene::{Scene, SurfaceGravity, YieldChoice};
 use crate::solver::choose;
 use crate::solver::fast::layout::Layout as Blocks;
 use crate::solver::fast::memory as fast;
-use crate::solver::setup::{Face, Setup, SurfaceForce, WallRule, YieldTreatment};
+use crate::solver::setup::{Face, FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
 
 /// How a backend lays cells out in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -191,10 +191,9 @@ fn every_cell(setup: &Setup, item: &dyn Fn(&'static str, Part, u64) -> Item) -> 
     if setup.free_surface.is_some() || setup.grains.is_some() {
         items.push(item("surface kind, mass, fill, velocity", Part::Surface, SURFACE * cells));
     }
-    if let Some(surface) = &setup.free_surface {
-        if surface.force == SurfaceForce::ByFillAndInertia {
-            items.push(item("acceleration in surface cells", Part::Surface, INERTIA * cells));
-        }
+    let smoothed = |surface: &FreeSurface| surface.force == SurfaceForce::ByFillAndInertia;
+    if setup.free_surface.as_ref().is_some_and(smoothed) {
+        items.push(item("acceleration in surface cells", Part::Surface, INERTIA * cells));
     }
     items
 }
@@ -377,7 +376,6 @@ pub fn available() -> Option<u64> {
 mod tests {
     use super::*;
     use crate::rheology::Law;
-    use crate::solver::setup::FreeSurface;
 
     const LAW: Law = Law::Newtonian { mu: 0.1 };
 
