@@ -376,7 +376,7 @@ fn parity_of_grains_in_a_fluid() {
                     0 => variants(),
                     _ => best.map(|set| (set, 2)).into_iter().collect(),
                 };
-                compare(&name, &setup, 120, &some);
+                compare(&name, &setup, 60, &some);
             }
         }
     }

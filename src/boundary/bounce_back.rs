@@ -31,7 +31,7 @@ pub fn bounce_back<L: Lane>(out: L, i: usize, rho: L, u_wall: &[L; 3]) -> L {
 /// # Source
 /// Inverse transform of \[K3\].
 /// # Verified by
-/// Claim `sphere-carried-along`.
+/// Claim `galilean-twin`.
 #[must_use]
 pub fn cubic(i: usize, rho: f64, u: &[f64; 3]) -> f64 {
     let c = crate::lattice::C[i].map(f64::from);

@@ -196,8 +196,14 @@ impl Gaps {
         a.position - b.position - shift
     }
 
-    /// Adds lubrication to force (N) and torque (N m) of every grain.
-    pub fn push(&mut self, dem: &Dem, config: &Suspension, loads: &mut [(V3, V3)]) {
+    /// Adds lubrication to force (N) and torque (N m) of every grain; `wet(grain)`: whether fluid touches it.
+    pub fn push(
+        &mut self,
+        dem: &Dem,
+        config: &Suspension,
+        wet: &impl Fn(usize) -> bool,
+        loads: &mut [(V3, V3)],
+    ) {
         let units = &config.units;
         let (length, speed, rate) = (1.0 / units.dx_m, 1.0 / units.velocity_unit(), units.dt_s);
         let inverse_mass = units.rho0_kg_per_m3 * units.dx_m * units.dx_m * units.dx_m;
@@ -212,7 +218,8 @@ impl Gaps {
             let distance = d.norm();
             let inverse = (a.inverse_mass + b.inverse_mass) * inverse_mass;
             let gap = (distance - a.radius - b.radius) * length;
-            if gap >= self.rules.cutoff || distance == 0.0 || inverse == 0.0 {
+            let dry = !(wet(a.body as usize) && wet(b.body as usize));
+            if gap >= self.rules.cutoff || distance == 0.0 || inverse == 0.0 || dry {
                 continue;
             }
             let meeting = Meeting {
@@ -237,6 +244,9 @@ impl Gaps {
         for at in 0..self.walls.len() {
             let (k, wall) = self.walls[at];
             let m = &members[k];
+            if !wet(m.body as usize) {
+                continue;
+            }
             found.clear();
             near(dem, wall, m, self.rules.cutoff * units.dx_m, &mut found);
             for place in &found {

@@ -80,7 +80,8 @@ impl Immersed {
         for _ in 0..self.config.sub_steps.max(1) {
             let mut now = loads.clone();
             if let Some(gaps) = &mut self.gaps {
-                gaps.push(&self.dem, &self.config, &mut now);
+                let wet = |grain: usize| self.loads[grain].wet_links > 0;
+                gaps.push(&self.dem, &self.config, &wet, &mut now);
             }
             let (forces, torques) = self.dem.external_mut();
             for (grain, (force, torque)) in now.iter().enumerate() {

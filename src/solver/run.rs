@@ -237,7 +237,7 @@ pub enum StartError {
     NoFluid,
     /// The grains cannot start.
     #[error("grains: {0}")]
-    Grains(DemError),
+    Grains(Box<DemError>),
     /// A fill outside 0..1.
     #[error("cell {cell} has a fill of {found}; allowed: 0 to 1")]
     Fill { cell: usize, found: f64 },

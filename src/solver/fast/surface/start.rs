@@ -27,7 +27,8 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     pub(in crate::solver::fast) fn start_surface(&mut self) -> Result<(), StartError> {
         let unsupported = |feature| StartError::Unsupported { backend: "fast", feature };
         if let Some(grains) = &self.setup.grains {
-            let immersed = Immersed::new(&self.setup, grains).map_err(StartError::Grains)?;
+            let immersed =
+                Immersed::new(&self.setup, grains).map_err(|error| StartError::Grains(Box::new(error)))?;
             self.grains = Some(Box::new(immersed));
         }
         let drawn = self.setup.free_surface.take();

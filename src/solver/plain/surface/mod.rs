@@ -98,7 +98,9 @@ impl<P: Physics> SurfaceRun<P> {
             .collect();
         let force = setup.force.at(0);
         let grains = match &setup.grains {
-            Some(grains) => Some(Box::new(Immersed::new(setup, grains).map_err(StartError::Grains)?)),
+            Some(grains) => Some(Box::new(
+                Immersed::new(setup, grains).map_err(|error| StartError::Grains(Box::new(error)))?,
+            )),
             None => None,
         };
         let excess = match setup.initial {
