@@ -23,10 +23,12 @@ impl Immersed {
                 taken = momentum(&f);
                 let rho = 1.0 + density_excess(&f);
                 mass += if kind == Kind::Liquid { rho } else { host.interface_mass(cell) };
-                // Of a mass m the volume is m/ρ.
-                self.owed[grain as usize] += mass - mass / rho;
+                if kind == Kind::Liquid {
+                    self.owed[grain as usize] += rho - 1.0;
+                }
             }
             host.cover(cell);
+            self.debt[grain as usize] += mass;
             if self.config.mutant != Mutant::CoveredMassDropped {
                 host.book(-mass, &taken.map(|p| -p));
             }
@@ -37,15 +39,16 @@ impl Immersed {
         }
         let kinds = self.kinds_of_freed(host, changes);
         let mut volume: BTreeMap<u32, f64> = BTreeMap::new();
-        for (&(_, grain), (_, fill)) in changes.freed.iter().zip(&kinds) {
-            *volume.entry(grain).or_insert(0.0) += fill;
+        for (&(_, grain), (kind, _)) in changes.freed.iter().zip(&kinds) {
+            *volume.entry(grain).or_insert(0.0) += if *kind == Kind::Liquid { 1.0 } else { 0.0 };
         }
         let cells: Vec<(u32, u32, f64, Uncovered)> = changes
             .freed
             .iter()
             .zip(kinds)
             .map(|(&(cell, grain), (kind, fill))| {
-                let share = self.owed[grain as usize] / volume[&grain];
+                let liquid = volume[&grain];
+                let share = if liquid > 0.0 { self.owed[grain as usize] / liquid } else { 0.0 };
                 (cell, grain, fill, self.uncovered(host, cell as usize, grain as usize, (kind, fill), share))
             })
             .collect();
@@ -55,7 +58,10 @@ impl Immersed {
                 Kind::Interface => to.mass,
                 Kind::Gas | Kind::Solid => 0.0,
             };
-            self.owed[*grain as usize] -= fill - volume;
+            if to.kind == Kind::Liquid {
+                self.owed[*grain as usize] -= fill - volume;
+            }
+            self.debt[*grain as usize] -= fill;
             let given = momentum(&to.populations);
             host.uncover(*cell as usize, to);
             host.book(fill, &given);
@@ -63,12 +69,14 @@ impl Immersed {
         }
     }
 
-    /// What freed cells become, one after the other: liquid where no gas is beside them, interface where fluid is
+    /// What freed cells become, one after the other: liquid where no gas is beside them, interface where liquid is
     /// too, else gas. Liquid never touches gas that way.
+    ///
+    /// The fill of an interface cell is the mean around it.
     fn kinds_of_freed<H: Host>(&self, host: &H, changes: &Changes) -> Vec<(Kind, f64)> {
         let mut decided: BTreeMap<u32, (Kind, f64)> = BTreeMap::new();
         for &(cell, _) in &changes.freed {
-            let (mut gas, mut fluid) = (0, 0);
+            let (mut gas, mut liquid, mut interface) = (0, 0, 0);
             let (mut wet, mut weight) = (0.0, 0.0);
             for i in 1..Q {
                 let (kind, fill) = match self.shape.source(host.setup(), cell as usize, i) {
@@ -85,16 +93,18 @@ impl Immersed {
                 match kind {
                     Kind::Solid => continue,
                     Kind::Gas => gas += 1,
-                    Kind::Interface | Kind::Liquid => fluid += 1,
+                    Kind::Interface => interface += 1,
+                    Kind::Liquid => liquid += 1,
                 }
                 wet += W[i] * fill;
                 weight += W[i];
             }
-            let verdict = match (self.with_gas, gas, fluid) {
-                (false, _, _) => (Kind::Liquid, 1.0),
-                (true, 0, 1..) => (Kind::Liquid, 1.0),
-                (true, 1.., 1..) => (Kind::Interface, wet / weight),
-                (true, _, _) => (Kind::Gas, 0.0),
+            let verdict = if !self.with_gas || (gas == 0 && liquid + interface > 0) {
+                (Kind::Liquid, 1.0)
+            } else if liquid > 0 {
+                (Kind::Interface, wet / weight)
+            } else {
+                (Kind::Gas, 0.0)
             };
             decided.insert(cell, verdict);
         }

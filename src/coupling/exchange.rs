@@ -32,8 +32,19 @@ struct Open {
     share: f64,
     /// ρ of the cell.
     rho: f64,
-    /// Wet share of the cell: 1 in liquid, φ in interface.
+    /// φ of the cell, 1 in liquid; then, at the surface, the wet share of the link.
     wet: f64,
+    /// Whether the cell is interface, with a mass of its own.
+    interface: bool,
+}
+
+/// A link whose outer cell is gas.
+#[derive(Clone, Copy, Debug)]
+struct Dry {
+    /// Its middle, from the centre of the grain.
+    middle: L3,
+    out: u8,
+    covered: u32,
 }
 
 /// What the links of one grain say before its velocity is known.
@@ -43,9 +54,30 @@ pub(super) struct Gathered {
     friction: Friction,
     /// Around the grain; only where a part of its surface is blocked.
     fit: Option<Fit>,
-    /// Links to gas: their middle, from the centre of the grain, and direction.
-    dry: Vec<(L3, u8)>,
+    /// Links to gas.
+    dry: Vec<Dry>,
     blocked: bool,
+}
+
+impl Gathered {
+    /// Wet share of every link of a grain at the surface, half of the fill at either end: as between interface cells
+    /// \[F1\]. The fill of a covered cell is the mean of those around it that are not covered.
+    fn share_out(&mut self, cells: &[u32]) {
+        let place = |covered: u32| cells.binary_search(&covered).unwrap_or(0);
+        let mut sums = vec![(0.0, 0.0); cells.len()];
+        for open in &self.open {
+            let w = W[usize::from(open.link.out)];
+            let sum = &mut sums[place(open.link.covered)];
+            (sum.0, sum.1) = (sum.0 + w * open.wet, sum.1 + w);
+        }
+        for dry in &self.dry {
+            sums[place(dry.covered)].1 += W[usize::from(dry.out)];
+        }
+        for open in &mut self.open {
+            let (wet, all) = sums[place(open.link.covered)];
+            open.wet = 0.5 * (open.wet + wet / all);
+        }
+    }
 }
 
 /// What goes to the cells and to the books.
@@ -53,10 +85,12 @@ pub(super) struct Gathered {
 pub(super) struct Returned {
     /// (covered cell, direction, value).
     pub values: Vec<(u32, u8, f64)>,
+    /// (interface cell, mass that it gets).
+    pub gained: Vec<(u32, f64)>,
     pub load: BodyLoad,
     /// Mass that came into the fluid over links.
     pub mass: f64,
-    /// The same less that of the volume which the surface displaces at the reference density.
+    /// Of this into liquid, less the volume that the surface displaces there at the reference density.
     pub excess: f64,
     /// Momentum that came into the fluid over links.
     pub momentum: L3,
@@ -81,10 +115,14 @@ impl Immersed {
             for &(cell, i, value) in &own.values {
                 host.put(cell as usize, usize::from(i), value);
             }
+            for &(cell, mass) in &own.gained {
+                host.gain(cell as usize, mass);
+            }
             host.book(own.mass, &own.momentum);
             self.books.enter_links(&own);
             self.loads[grain] = own.load;
             self.owed[grain] -= own.excess;
+            self.debt[grain] -= own.mass;
         }
     }
 
@@ -103,7 +141,8 @@ impl Immersed {
             if !kind.is_fluid() {
                 if kind == Kind::Gas {
                     let r = self.shape.apart(&self.shape.centre(cell), &centre);
-                    found.dry.push((half_way(&r, usize::from(link.out)), link.out));
+                    let middle = half_way(&r, usize::from(link.out));
+                    found.dry.push(Dry { middle, out: link.out, covered: link.covered });
                 }
                 found.blocked |= kind == Kind::Solid && self.coverage.owner(cell) != NOBODY;
                 continue;
@@ -122,6 +161,9 @@ impl Immersed {
             };
             let open = self.look(host, link, &balls, (rho, r, wet));
             found.open.push(open);
+        }
+        if !found.dry.is_empty() || found.open.iter().any(|open| open.interface) {
+            found.share_out(&cover.cells);
         }
         for open in &found.open {
             let out = usize::from(open.link.out);
@@ -142,7 +184,18 @@ impl Immersed {
         let leaving = host.after_one(link.cell as usize, out);
         let c = C[out].map(f64::from);
         let middle = half_way(&r, out);
-        let half = Open { link: *link, arm: middle, middle, leaving, base: leaving, share: 1.0, rho, wet };
+        let interface = host.kind(link.cell as usize) == Kind::Interface;
+        let half = Open {
+            link: *link,
+            arm: middle,
+            middle,
+            leaving,
+            base: leaving,
+            share: 1.0,
+            rho,
+            wet,
+            interface,
+        };
         if self.config.wall == GrainWall::HalfWay {
             return half;
         }
@@ -172,14 +225,11 @@ impl Immersed {
         let own = &all[grain];
         let motion = self.motion(grain);
         let held = self.blocked_force(host, grain, all);
-        let mut rest = self.rest_force(grain, own, force);
-        for a in 0..6 {
-            rest[a] += held[a];
-        }
+        let rest = self.rest_force(grain, own, force);
         let w = if self.is_driven(grain) {
             motion
         } else {
-            let mut other = rest;
+            let mut other: [f64; 6] = std::array::from_fn(|a| rest[a] + held[a]);
             let weight = self.weight(grain);
             for a in 0..3 {
                 other[a] += weight[a];
@@ -193,15 +243,11 @@ impl Immersed {
         };
         let mut returned = Returned { values: Vec::with_capacity(own.open.len()), ..Returned::default() };
         let mut links = [0.0; 6];
-        let leak = if self.config.wall == GrainWall::HalfWay && !own.blocked {
-            0.0
-        } else {
-            self.leak(host, own, &w)
-        };
-        for open in &own.open {
-            self.close(host, open, &w, leak, &mut links, &mut returned);
+        let mut volumes = self.volumes(host, own, &w);
+        volumes.surplus += self.settlement(grain, &w) * volumes.per_interface;
+        for (open, ideal) in own.open.iter().zip(&volumes.ideal) {
+            self.close(host, open, &w, (&volumes, *ideal), &mut links, &mut returned);
         }
-        returned.excess -= self.displaced(host, own, &w);
         returned.load = BodyLoad { links, held, rest, wet_links: own.open.len() as u32 };
         returned
     }
@@ -219,13 +265,14 @@ impl Immersed {
         host: &H,
         open: &Open,
         w: &[f64; 6],
-        leak: f64,
+        (volumes, ideal): (&Volumes, f64),
         links: &mut [f64; 6],
         returned: &mut Returned,
     ) {
         let out = usize::from(open.link.out);
         let (u, moving) = self.moving(host, (&open.arm, out), open.rho, w);
-        let value = host.stored((open.base + open.share * moving) - W[out] * leak);
+        let leak = if open.interface { 0.0 } else { W[out] * volumes.leak };
+        let value = host.stored((open.base + open.share * moving) - leak);
         returned.values.push((open.link.covered, open.link.slot, value));
         let (given, taken) = (open.leaving + value, open.leaving - value);
         let c = C[out].map(f64::from);
@@ -236,8 +283,15 @@ impl Immersed {
             links[a + 3] += turn[a];
             returned.momentum[a] -= c[a] * given;
         }
-        returned.mass -= open.wet * taken;
-        returned.excess -= open.wet * taken;
+        if open.interface {
+            // Its mass is its own and follows the wet share.
+            let gained = W[out] * volumes.surplus - open.wet * taken;
+            returned.gained.push((open.link.cell, gained));
+            returned.mass += gained;
+        } else {
+            returned.mass -= taken;
+            returned.excess -= (taken + ideal) - W[out] * volumes.blocked;
+        }
     }
 
     /// Velocity of the surface at a link, and what it adds to a half-way link \[B1\].
@@ -251,43 +305,56 @@ impl Immersed {
         (u, physics.wall(0.0, out, rho, &u) + physics.wall_cubic(out, rho, &u))
     }
 
-    /// Mass per unit of weight that the open links must not return, so that the grain passes the mass that its
-    /// motion displaces and no more.
+    /// What the surface of a grain displaces, and what of it cannot go where it should.
     ///
-    /// Interpolated links return more or less than half-way links. And what the surface pushes away where a wall or
+    /// Interpolated links return more or less mass than half-way links. What the surface pushes away where a wall or
     /// another grain leaves no cell has to come out beside: over a closed staircase the volumes pushed and pulled
-    /// cancel, so that those of all links but the blocked ones tell what is missing.
-    fn leak<H: Host>(&self, host: &H, own: &Gathered, w: &[f64; 6]) -> f64 {
-        let (mut excess, mut weight) = (0.0, 0.0);
+    /// cancel, so that those of all links but the blocked ones tell what is missing. And a link to a liquid cell
+    /// returns all of its mass even where the other end is only partly wet: the interface cells around take the rest
+    /// back, or a body that sinks through the surface would push half a layer of cells too much.
+    fn volumes<H: Host>(&self, host: &H, own: &Gathered, w: &[f64; 6]) -> Volumes {
+        let mut volumes = Volumes { ideal: Vec::with_capacity(own.open.len()), ..Volumes::default() };
+        let (mut liquid, mut interface, mut excess, mut all, mut surplus) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for link in &own.open {
             let out = usize::from(link.link.out);
             let (_, straight) = self.moving(host, (&link.middle, out), link.rho, w);
+            let ideal = straight / link.rho;
+            volumes.ideal.push(ideal);
+            all += ideal;
+            if link.interface {
+                interface += W[out];
+                continue;
+            }
+            liquid += W[out];
+            surplus += (1.0 - link.wet) * ideal;
             if self.config.wall != GrainWall::HalfWay {
                 let (_, moving) = self.moving(host, (&link.arm, out), link.rho, w);
-                excess += link.wet * (((link.base - link.leaving) + link.share * moving) - straight);
+                excess += ((link.base - link.leaving) + link.share * moving) - straight;
             }
-            if own.blocked {
-                excess += straight / link.rho;
-            }
-            weight += link.wet * W[out];
         }
         if own.blocked {
-            for (middle, out) in &own.dry {
-                excess += self.moving(host, (middle, usize::from(*out)), 1.0, w).1;
+            for dry in &own.dry {
+                all += self.moving(host, (&dry.middle, usize::from(dry.out)), 1.0, w).1;
             }
+        } else {
+            all = 0.0;
         }
-        if weight > 0.0 { excess / weight } else { 0.0 }
+        if liquid > 0.0 {
+            volumes.leak = (excess + all) / liquid;
+            volumes.blocked = all / liquid;
+        }
+        if interface > 0.0 {
+            volumes.per_interface = 1.0 / interface;
+            volumes.surplus = -surplus * volumes.per_interface;
+        }
+        volumes
     }
 
-    /// Volume that the wet surface of a grain pushes into the fluid in this step: nothing where all of it is wet.
-    fn displaced<H: Host>(&self, host: &H, own: &Gathered, w: &[f64; 6]) -> f64 {
-        let wet = own.open.iter().filter(|link| link.wet < 1.0);
-        let part: f64 = wet
-            .map(|l| (1.0 - l.wet) * self.moving(host, (&l.middle, usize::from(l.link.out)), 1.0, w).1)
-            .sum();
-        let dry: f64 =
-            own.dry.iter().map(|(r, out)| self.moving(host, (r, usize::from(*out)), 1.0, w).1).sum();
-        -(part + dry)
+    /// Mass that a grain hands back to the interface around it in this step: what the staircase of its waterline has
+    /// taken too much or given too much, over one cell of travel.
+    fn settlement(&self, grain: usize, w: &[f64; 6]) -> f64 {
+        let travel = (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]).sqrt();
+        self.debt[grain] * travel
     }
 
     /// Force and torque of the fluid that is pressed between a grain and a wall or another grain, too thin for a cell:
@@ -384,6 +451,21 @@ impl Immersed {
 #[inline]
 fn half_way(r: &L3, out: usize) -> L3 {
     std::array::from_fn(|a| r[a] + 0.5 * f64::from(C[out][a]))
+}
+
+/// See [`Immersed::volumes`].
+#[derive(Clone, Debug, Default)]
+struct Volumes {
+    /// What each link returns beyond what leaves, at the reference density.
+    ideal: Vec<f64>,
+    /// What links to liquid return too much, per unit of weight.
+    leak: f64,
+    /// The part of it that makes up for blocked links.
+    blocked: f64,
+    /// What links to interface get besides, per unit of weight.
+    surplus: f64,
+    /// 1 over the weight of links to interface; 0 without any.
+    per_interface: f64,
 }
 
 /// Axis of the largest component; the later of equals.

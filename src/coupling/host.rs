@@ -49,6 +49,8 @@ pub trait Host: Sync {
     fn uncover(&mut self, cell: usize, to: &Uncovered);
     /// Takes the excess mass parked in a cell.
     fn take_parked(&mut self, cell: usize) -> f64;
+    /// Adds to m of an interface cell.
+    fn gain(&mut self, cell: usize, mass: f64);
     /// Books mass and momentum that came into the fluid from grains.
     fn book(&mut self, mass: f64, momentum: &[f64; 3]);
     /// Liquid and interface cells.

@@ -44,6 +44,8 @@ pub struct Immersed {
     pub(super) contact: Vec<[f64; 6]>,
     /// Mass beyond the reference density that each grain has taken from the fluid and not given back.
     pub(super) owed: Vec<f64>,
+    /// Mass of interface cells that each grain has taken and could not hand to their neighbours.
+    pub(super) debt: Vec<f64>,
     /// Cells to be covered at the start.
     first: super::coverage::Changes,
     /// Uniform pressure gradient that balances the weight, lattice units.
@@ -73,6 +75,7 @@ impl Immersed {
         let solid = (0..setup.cells()).filter(|&cell| setup.is_solid(cell)).count();
         let mut immersed = Self {
             owed: vec![0.0; grains],
+            debt: vec![0.0; grains],
             first: super::coverage::Changes::default(),
             shape: Box3::new(setup),
             coverage: Coverage::new(setup.cells(), grains),

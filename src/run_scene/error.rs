@@ -67,7 +67,8 @@ impl StopReport {
                     "mass changed by {residual:.3e} of the whole in one step; rounding allows {bound:.1e}"
                 )
             }
-            Runaway::TooFast { speed, limit } => format!(
+            Runaway::Grains { grain } => format!("grain {grain} could not go on"),
+            Runaway::GrainTooFast { speed, limit, .. } | Runaway::TooFast { speed, limit } => format!(
                 "{:.4e} m/s, {speed:.3} cells per step; the limit is {limit}",
                 units.velocity_to_si(speed)
             ),

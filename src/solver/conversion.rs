@@ -310,7 +310,9 @@ fn move_parked(cells: &impl Cells, all: &mut BTreeMap<u32, f64>, step: u64, forc
         let at = cell as usize;
         let along = (force[axis] > 0.0) == (cells.kind(at) == Kind::Gas);
         let mut to = at;
-        if !(1..Q).any(|i| touches_interface(cells, at, i)) {
+        // What a grain has covered waits beside it.
+        let waits = cells.kind(at) == Kind::Solid;
+        if !waits && !(1..Q).any(|i| touches_interface(cells, at, i)) {
             let mut c = [0; 3];
             c[axis] = if along { -1 } else { 1 };
             let from = crate::lattice::direction(c).unwrap_or(0);

@@ -2,6 +2,7 @@
 
 pub mod block;
 pub mod element;
+mod grains;
 pub mod instructions;
 pub mod kernel;
 pub mod layout;

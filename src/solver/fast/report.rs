@@ -2,6 +2,7 @@
 
 use super::element::{Aligned, Element};
 use super::run::FastRun;
+use crate::coupling::Immersed;
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
 use crate::solver::fingerprint::{Fingerprint, Hasher};
@@ -51,7 +52,7 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
         if let Some(surface) = &self.surface {
             surface.start_fields(self, &mut fields);
         }
-        let force = self.setup.force.at(self.step);
+        let force = self.body_force();
         for (cell, number, local) in self.in_order() {
             let f = self.arrived(number, local);
             let here = self.force_here(number, local, &force);
@@ -77,7 +78,7 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
     }
 
     fn totals(&self) -> Totals {
-        let force = self.setup.force.at(self.step);
+        let force = self.body_force();
         let mut totals = Totals { mass_excess: 0.0, momentum: [0.0; 3], kinetic_energy: 0.0 };
         for (_, number, local) in self.in_order() {
             let m = moments(&self.arrived(number, local), &self.force_here(number, local, &force));
@@ -96,7 +97,7 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
     }
 
     fn fingerprint(&self) -> Fingerprint {
-        let force = self.setup.force.at(self.step);
+        let force = self.body_force();
         let mut hasher = Hasher::default();
         let mut max_speed2 = 0.0_f64;
         for (cell, number, local) in self.in_order() {
@@ -109,6 +110,9 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
             max_speed2 = max_speed2.max((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
         }
         self.hash_rest(&mut hasher);
+        if let Some(grains) = &self.grains {
+            grains.hash(&mut hasher);
+        }
         let totals = self.totals();
         Fingerprint {
             step: self.step,
@@ -135,11 +139,23 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
         if self.surface.is_some() {
             passes.push(("surface", self.seconds[2]));
         }
+        if self.grains.is_some() {
+            passes.push(("surfaces of grains", self.seconds[3]));
+            passes.push(("motion of grains", self.seconds[4]));
+        }
         passes
     }
 
     fn loads(&self) -> Vec<Load> {
         self.surface.as_ref().map_or_else(Vec::new, |surface| surface.loads.clone())
+    }
+
+    fn grains(&self) -> Option<&Immersed> {
+        self.grains.as_deref()
+    }
+
+    fn grains_mut(&mut self) -> Option<&mut Immersed> {
+        self.grains.as_deref_mut()
     }
 
     fn allocated_bytes(&self) -> u64 {
@@ -150,6 +166,13 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
         let marks = self.setup.solids.len() + self.setup.fluid_of_cell.len();
         let surface = self.surface.as_ref().map_or(0, super::surface::Surface::bytes);
         let sources = super::memory::sources_bytes(&self.layout, E::PER_LINE);
-        populations + (rim + numbers + marks) as u64 + blocks + self.layout.bytes() + sources + surface
+        let grains = self.grains.as_ref().map_or(0, |grains| grains.bytes());
+        populations
+            + (rim + numbers + marks) as u64
+            + blocks
+            + self.layout.bytes()
+            + sources
+            + surface
+            + grains
     }
 }

@@ -14,6 +14,7 @@ use super::sources::Sources;
 use super::stage::{after, open_link, wall_link};
 use super::stores;
 use super::surface::{Surface, put};
+use crate::coupling::Immersed;
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
 use crate::solver::initial;
@@ -46,11 +47,13 @@ pub struct FastRun<P, E: Element = f64> {
     /// ω⁺ of the last collision; only for the lagged treatment.
     pub(super) lag: Vec<Vec<f64>>,
     pub(super) surface: Option<Surface>,
+    /// Grains in the fluid; only absent while they look at the cells.
+    pub(super) grains: Option<Box<Immersed>>,
     /// No collision yet.
     pub(super) fresh: bool,
     pub(super) step: u64,
-    /// Seconds spent so far in: collision, walls, surface.
-    pub(super) seconds: [f64; 3],
+    /// Seconds spent so far in: collision, walls, surface, surfaces of grains, motion of grains.
+    pub(super) seconds: [f64; 5],
     pub(super) fluid_cells: u64,
     pub(super) pool: Option<rayon::ThreadPool>,
 }
@@ -93,13 +96,14 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             density: Vec::new(),
             lag: Vec::new(),
             surface: None,
+            grains: None,
             fresh: true,
             step: 0,
-            seconds: [0.0; 3],
+            seconds: [0.0; 5],
             fluid_cells: 0,
             pool,
         };
-        if setup.free_surface.is_some() {
+        if setup.free_surface.is_some() || setup.grains.is_some() {
             run.start_surface()?;
         } else {
             for place in 0..run.layout.places() {
@@ -195,7 +199,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
 
     /// One time step.
     fn advance_one(&mut self) -> Result<(), Stopped> {
-        let force = self.setup.force.at(self.step);
+        let force = self.body_force();
         let mut watch = Instant::now();
         let mut lap = |seconds: &mut f64| {
             let now = Instant::now();
@@ -212,8 +216,12 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         lap(&mut self.seconds[1]);
         std::mem::swap(&mut self.old, &mut self.new);
         self.fresh = false;
+        self.exchange_with_grains();
+        lap(&mut self.seconds[3]);
         self.surface_pass(&force);
         lap(&mut self.seconds[2]);
+        self.move_grains()?;
+        lap(&mut self.seconds[4]);
         self.step += 1;
         Ok(())
     }

@@ -76,13 +76,13 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     }
 
     /// Block and place of a cell of the box, if it has a block.
-    fn find(&self, cell: usize) -> Option<(usize, usize)> {
+    pub(in crate::solver::fast) fn find(&self, cell: usize) -> Option<(usize, usize)> {
         let slot = self.layout.slot(self.setup.coordinates(cell))?;
         let cells = self.layout.block_cells();
         Some((slot / cells, slot % cells))
     }
 
-    fn record_of(&self, cell: usize) -> Option<&InterfaceCell> {
+    pub(in crate::solver::fast) fn record_of(&self, cell: usize) -> Option<&InterfaceCell> {
         let (number, local) = self.find(cell)?;
         self.surface.as_ref()?.record(number, local)
     }
@@ -94,7 +94,13 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     }
 
     /// Changes the kind of a cell; `record`: what is kept of it from now on.
-    fn change(&mut self, cell: usize, kind: Kind, fill: Option<f64>, record: Option<InterfaceCell>) {
+    pub(in crate::solver::fast) fn change(
+        &mut self,
+        cell: usize,
+        kind: Kind,
+        fill: Option<f64>,
+        record: Option<InterfaceCell>,
+    ) {
         let Some((number, local)) = self.find(cell) else { return };
         let Some(surface) = &mut self.surface else { return };
         for (of, step) in [(surface.kinds[number][local], u64::MAX), (kind, 1)] {
@@ -113,7 +119,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         match (place, record) {
             (Ok(k), Some(record)) => list[k] = record,
             (Err(k), Some(record)) => list.insert(k, record),
-            (Ok(k), None) if kind == Kind::Gas => {
+            (Ok(k), None) if !kind.is_fluid() => {
                 list.remove(k);
             }
             (Ok(_) | Err(_), None) => {}

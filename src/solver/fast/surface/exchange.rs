@@ -117,6 +117,13 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                         number => self.surface.kinds[number as usize][local],
                     };
                     gas = !kind.is_fluid();
+                    if kind == Kind::Solid {
+                        // Covered by a grain: what its surface returns has been put there, and booked.
+                        touches |= touch::WALL;
+                        let number = number as usize;
+                        arrived[i] = self.task.old[number].get()[index::<E>(local, direction)].to_f64();
+                        continue;
+                    }
                     if gas {
                         touches |= touch::GAS;
                         arrived[i] = physics.gas_link(own[out], out, &cell.velocity, || own[out]);
@@ -141,6 +148,13 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         cell.rho = 1.0 + density_excess(&arrived);
         cell.mass += density_excess(&gained);
         cell.touches = touches;
+    }
+
+    /// Whether grains cover cells in the block or beside it.
+    #[inline]
+    pub(super) fn among_grains(&self) -> bool {
+        !self.surface.covered.is_empty()
+            && self.around.iter().any(|&n| n != NONE && self.surface.covered[n as usize] > 0)
     }
 
     /// The other end of the link that population `i` arrives through.

@@ -61,6 +61,12 @@ impl Inertia {
         set(&mut self.acceleration[number], local, &[0.0; 3]);
     }
 
+    /// A cell that a grain has given free: nothing is known of its past.
+    pub fn uncover(&mut self, number: usize, local: usize, velocity: &[f64; 3]) {
+        self.wet(number, local, velocity);
+        set(&mut self.before[number], local, velocity);
+    }
+
     /// Acceleration of a cell.
     #[must_use]
     pub fn acceleration_of(&self, number: usize, local: usize) -> [f64; 3] {

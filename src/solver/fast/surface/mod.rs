@@ -110,6 +110,8 @@ pub struct Surface {
     pub(super) returned: Vec<Vec<f64>>,
     /// `fill` where there is no block.
     pub(super) nothing: Vec<f64>,
+    /// Cells that grains cover, by block.
+    pub(super) covered: Vec<u32>,
     /// Whether a step waits for its ledger to be closed.
     pub(super) open: bool,
 }
@@ -194,7 +196,8 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     fn drop_dry_blocks(&mut self) {
         let Some(surface) = &mut self.surface else { return };
         for number in 0..self.blocks.len() {
-            let dry = surface.lanes[number].iter().all(|lane| lane.fluid == 0);
+            let dry =
+                surface.lanes[number].iter().all(|lane| lane.fluid == 0) && surface.covered[number] == 0;
             if dry && !self.old[number].is_empty() {
                 self.layout.set_block(self.blocks[number].place, super::layout::NONE);
                 self.old[number] = Default::default();

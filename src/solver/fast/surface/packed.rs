@@ -149,6 +149,8 @@ pub fn stream_block<R: Registers, P: Physics>(
     let line = R::Element::PER_LINE;
     let sources = streaming.task.sources;
     let mut columns = Columns::new();
+    // Cells beside grains go one by one.
+    let apart = sources.is_empty() || streaming.among_grains();
     let mut rest = list;
     while let Some(first) = rest.first() {
         let pack = usize::from(first.local) / line;
@@ -156,7 +158,7 @@ pub fn stream_block<R: Registers, P: Physics>(
         let (cells, later) = rest.split_at_mut(same);
         rest = later;
         // Bit per lane.
-        let mut alone = if sources.is_empty() { u16::MAX } else { 0 };
+        let mut alone = if apart { u16::MAX } else { 0 };
         for link in streaming.block.links_of(pack) {
             alone |= 1 << (usize::from(link.local) % line);
         }

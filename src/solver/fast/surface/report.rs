@@ -20,6 +20,11 @@ impl Surface {
         for (cell, number, local) in run.in_order() {
             fields.kind[cell] = self.kinds[number][local] as u8;
         }
+        if let Some(grains) = &run.grains {
+            for cell in (0..cells).filter(|&cell| grains.is_covered(cell)) {
+                fields.kind[cell] = Kind::Solid as u8;
+            }
+        }
     }
 
     /// φ of a fluid cell of density `rho`, as it is.

@@ -3,6 +3,7 @@
 use super::inertia::Inertia;
 use super::{Lanes, Surface};
 use crate::boundary::links::{Source, resolve};
+use crate::coupling::Immersed;
 use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
@@ -16,7 +17,7 @@ use crate::solver::initial::{self, REST};
 use crate::solver::physics::Physics;
 use crate::solver::plain::starting_omega;
 use crate::solver::run::{Load, StartError};
-use crate::solver::setup::{FlowPoint, SurfaceForce};
+use crate::solver::setup::{FlowPoint, FreeSurface, SurfaceForce};
 
 impl<P: Physics, E: Element> FastRun<P, E> {
     /// Blocks, populations, masses and the ledger.
@@ -25,7 +26,14 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     /// The setup asks for what this backend does not have.
     pub(in crate::solver::fast) fn start_surface(&mut self) -> Result<(), StartError> {
         let unsupported = |feature| StartError::Unsupported { backend: "fast", feature };
-        let Some(mut rules) = self.setup.free_surface.take() else { return Ok(()) };
+        if let Some(grains) = &self.setup.grains {
+            let immersed = Immersed::new(&self.setup, grains).map_err(StartError::Grains)?;
+            self.grains = Some(Box::new(immersed));
+        }
+        let drawn = self.setup.free_surface.take();
+        let with_gas = drawn.is_some();
+        // Grains need the kinds of cells with or without gas.
+        let mut rules = drawn.unwrap_or_else(|| FreeSurface::new(vec![1.0; self.setup.cells()]));
         if self.setup.fluids.len() > 1 {
             return Err(unsupported("several fluids below a free surface"));
         }
@@ -38,12 +46,14 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             Kind::Interface => fill[cell],
             Kind::Gas | Kind::Solid => 0.0,
         };
-        let force = setup.force.at(0);
+        let drawn_force = setup.force.at(0);
         let excess = match setup.initial {
             Some(_) => Vec::new(),
+            // Without a surface nothing says where the pressure is that of the gas.
+            None if !with_gas => vec![0.0; kinds.len()],
             None => {
                 let fill: Vec<f64> = (0..kinds.len()).map(own_fill).collect();
-                hydrostatic::density_excess(setup.extents, &kinds, &fill, &force)
+                hydrostatic::density_excess(setup.extents, &kinds, &fill, &drawn_force)
             }
         };
         let mut wet = vec![false; self.layout.places()];
@@ -67,20 +77,25 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             returned: Vec::new(),
             nothing: vec![GAS; self.layout.block_cells()],
             open: false,
+            covered: Vec::new(),
             rules: rules.clone(),
         });
-        self.setup.free_surface = Some(rules);
+        if with_gas {
+            self.setup.free_surface = Some(rules);
+        }
+        let force = self.body_force();
         for place in (0..wet.len()).filter(|&place| wet[place]) {
             if let Some(number) = self.add_surface_block(place) {
                 self.fill_block(number, &kinds, &own_fill, &excess, &force);
             }
         }
+        self.start_grains();
         self.open_books();
         Ok(())
     }
 
     /// Makes a block of gas and solid cells; returns its number.
-    pub(super) fn add_surface_block(&mut self, place: usize) -> Option<usize> {
+    pub(in crate::solver::fast) fn add_surface_block(&mut self, place: usize) -> Option<usize> {
         let number = self.add_block(place)?;
         let cells = self.layout.block_cells();
         let kinds = (0..cells).map(|local| {
@@ -97,6 +112,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             inertia.add(number, cells);
         }
         put(&mut surface.returned, number, vec![0.0; self.blocks[number].links.len()]);
+        put(&mut surface.covered, number, 0);
         Some(number)
     }
 

@@ -125,6 +125,9 @@ impl<P: Physics> Host for SurfaceRun<P> {
     fn take_parked(&mut self, cell: usize) -> f64 {
         self.parked.remove(&(cell as u32)).unwrap_or(0.0)
     }
+    fn gain(&mut self, cell: usize, mass: f64) {
+        self.mass[cell] += mass;
+    }
     fn book(&mut self, mass: f64, momentum: &[f64; 3]) {
         self.books.mass_from_grains.add(mass);
         self.books.from_grains.add(momentum);

@@ -285,7 +285,6 @@ impl<P: Physics> SurfaceRun<P> {
                         Kind::Solid => {
                             touches |= touch::WALL;
                             arrived[i] = self.post[from][direction];
-                            gained[i] = self.fill[cell] * (arrived[i] - own[out]);
                             continue;
                         }
                         Kind::Gas => {

@@ -1,0 +1,159 @@
+//! Grains in the fluid: the blocks of this backend for [`crate::coupling`].
+
+use super::element::Element;
+use super::kernel::index;
+use super::layout::NONE;
+use super::run::FastRun;
+use super::surface::InterfaceCell;
+use crate::coupling::{Host, Immersed, Uncovered};
+use crate::free_surface::Kind;
+use crate::free_surface::exchange::{GAS, LIQUID};
+use crate::lattice::Q;
+use crate::lattice::moments::moments;
+use crate::solver::conversion::Cells;
+use crate::solver::physics::Physics;
+use crate::solver::run::Stopped;
+use crate::solver::setup::{Setup, YieldTreatment};
+
+impl<P: Physics, E: Element> FastRun<P, E> {
+    /// Body force of this step, with the pressure gradient that balances the weight of grains.
+    pub(super) fn body_force(&self) -> [f64; 3] {
+        let force = self.setup.force.at(self.step);
+        match &self.grains {
+            Some(grains) => {
+                let gradient = grains.gradient();
+                std::array::from_fn(|a| force[a] + gradient[a])
+            }
+            None => force,
+        }
+    }
+
+    /// Runs `work` on the grains and the cells.
+    fn with_grains<R>(&mut self, work: impl FnOnce(&mut Immersed, &mut Self) -> R) -> Option<R> {
+        let mut grains = self.grains.take()?;
+        let result = work(&mut grains, self);
+        self.grains = Some(grains);
+        Some(result)
+    }
+
+    pub(super) fn start_grains(&mut self) {
+        self.with_grains(Immersed::start);
+    }
+
+    pub(super) fn exchange_with_grains(&mut self) {
+        self.with_grains(Immersed::exchange);
+    }
+
+    pub(super) fn move_grains(&mut self) -> Result<(), Stopped> {
+        self.with_grains(Immersed::advance).unwrap_or(Ok(()))
+    }
+
+    /// Block and place of a cell, which gets a block if it has none.
+    fn find_or_make(&mut self, cell: usize) -> Option<(usize, usize)> {
+        let (place, _) = self.layout.find(self.setup.coordinates(cell));
+        if self.layout.block_at(place) == NONE {
+            self.add_surface_block(place)?;
+        }
+        self.find(cell)
+    }
+}
+
+impl<P: Physics, E: Element> Host for FastRun<P, E> {
+    type Physics = P;
+
+    fn setup(&self) -> &Setup {
+        &self.setup
+    }
+    fn physics(&self) -> &P {
+        &self.physics
+    }
+    fn step_number(&self) -> u64 {
+        self.step
+    }
+    fn kind(&self, cell: usize) -> Kind {
+        Cells::kind(self, cell)
+    }
+    fn fill(&self, cell: usize) -> f64 {
+        Cells::fill(self, cell)
+    }
+    fn interface_mass(&self, cell: usize) -> f64 {
+        Cells::mass(self, cell)
+    }
+    fn after(&self, cell: usize) -> [f64; Q] {
+        let Some((number, local)) = self.find(cell) else { return [0.0; Q] };
+        let own = self.old[number].get();
+        std::array::from_fn(|i| own[index::<E>(local, i)].to_f64())
+    }
+    fn stored(&self, value: f64) -> f64 {
+        E::from_f64(value).to_f64()
+    }
+    fn after_one(&self, cell: usize, i: usize) -> f64 {
+        self.find(cell).map_or(0.0, |(number, local)| self.old[number].get()[index::<E>(local, i)].to_f64())
+    }
+    fn put(&mut self, cell: usize, i: usize, value: f64) {
+        if let Some((number, local)) = self.find(cell) {
+            self.old[number].get_mut()[index::<E>(local, i)] = E::from_f64(value);
+        }
+    }
+    fn arrived(&self, cell: usize) -> [f64; Q] {
+        Cells::populations(self, cell)
+    }
+    fn cover(&mut self, cell: usize) {
+        let Some((number, _)) = self.find_or_make(cell) else { return };
+        self.change(cell, Kind::Solid, Some(GAS), None);
+        if let Some(surface) = &mut self.surface {
+            surface.covered[number] += 1;
+        }
+    }
+    fn uncover(&mut self, cell: usize, to: &Uncovered) {
+        let Some((number, local)) = self.find(cell) else { return };
+        let m = moments(&to.populations, &[0.0; 3]);
+        let fill = match to.kind {
+            Kind::Liquid => LIQUID,
+            Kind::Interface => to.mass / m.rho,
+            Kind::Gas | Kind::Solid => GAS,
+        };
+        let record = to.kind.is_fluid().then_some(InterfaceCell {
+            local: local as u16,
+            touches: 0,
+            f: to.populations,
+            rho: m.rho,
+            velocity: m.u,
+            mass: to.mass,
+            acceleration: [0.0; 3],
+        });
+        self.change(cell, to.kind, Some(fill), record);
+        let Some(surface) = &mut self.surface else { return };
+        surface.covered[number] -= 1;
+        if !to.kind.is_fluid() {
+            return;
+        }
+        if let Some(inertia) = &mut surface.inertia {
+            inertia.uncover(number, local, &m.u);
+        }
+        if let YieldTreatment::LaggedClamped { tau_max, .. } = self.setup.yielding {
+            self.lag[number][local] = 1.0 / tau_max;
+        }
+    }
+    fn take_parked(&mut self, cell: usize) -> f64 {
+        self.surface.as_mut().and_then(|surface| surface.parked.remove(&(cell as u32))).unwrap_or(0.0)
+    }
+    fn gain(&mut self, cell: usize, mass: f64) {
+        Cells::add_mass(self, cell, mass);
+    }
+    fn book(&mut self, mass: f64, momentum: &[f64; 3]) {
+        if let Some(surface) = &mut self.surface {
+            surface.books.mass_from_grains.add(mass);
+            surface.books.from_grains.add(momentum);
+        }
+    }
+    fn fluid_count(&self) -> u64 {
+        self.surface.as_ref().map_or(0, |surface| surface.counts[0] + surface.counts[1])
+    }
+    fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+    }
+}
