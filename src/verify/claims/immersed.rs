@@ -120,7 +120,9 @@ pub fn limit(
         // Beyond 0.9 the extrapolation is ten times the last change: wait.
         let now = if ratio.abs() < 0.9 { seen[2] + second * ratio / (1.0 - ratio) } else { seen[2] };
         residual = ((now - before) / now).abs();
-        quiet = if residual <= tolerance && ratio.abs() < 0.9 { quiet + 1 } else { 0 };
+        // What is left of a change that small is below the tolerance at any ratio up to 0.95.
+        let still = second.abs() <= 0.05 * tolerance * now.abs();
+        quiet = if residual <= tolerance && (ratio.abs() < 0.9 || still) { quiet + 1 } else { 0 };
         if quiet == 2 || second == 0.0 {
             return Ok(now);
         }
@@ -229,7 +231,7 @@ impl Array {
     }
 
     fn rule(&self, hold: bool) -> (u64, f64, u64) {
-        (self.interval(hold), 1e-4, 60 * self.interval(hold))
+        (self.interval(hold), 1e-4, 120 * self.interval(hold))
     }
 
     /// Force per volume of the box that moves the fluid at a Reynolds number 2Ru/ν of about 0.002, over the

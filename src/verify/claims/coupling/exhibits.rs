@@ -19,8 +19,11 @@ pub const APPROACH: Exhibit = Exhibit {
 };
 
 fn parts(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
-    let gaps: &[f64] =
-        if full { &[0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.7, 0.8, 1.0, 1.3, 1.7, 2.0] } else { &[0.1, 0.5, 1.0] };
+    let gaps: &[f64] = if full {
+        &[0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.7, 0.8, 1.0, 1.3, 1.7, 2.0]
+    } else {
+        &[0.1, 0.5, 1.0]
+    };
     let rows = approach::table(backend, gaps)?;
     let mut table = Table::new(
         "Force over 6 pi mu R U",
@@ -38,10 +41,11 @@ fn parts(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> 
         ]);
     }
     let column = |f: &dyn Fn(&[f64; 4]) -> f64| rows.iter().map(|r| [r[0], f(r)]).collect::<Vec<_>>();
-    let plot = Plot::new("Two spheres approaching", Axis::log("gap", "cells"), Axis::log("F/(6 pi mu R U)", ""))
-        .with(Series::line_markers("lattice", column(&|r| r[1])))
-        .with(Series::line_markers("with lubrication", column(&|r| r[1] + r[2])))
-        .with(Series::reference("exact", column(&|r| r[3])));
+    let plot =
+        Plot::new("Two spheres approaching", Axis::log("gap", "cells"), Axis::log("F/(6 pi mu R U)", ""))
+            .with(Series::line_markers("lattice", column(&|r| r[1])))
+            .with(Series::line_markers("with lubrication", column(&|r| r[1] + r[2])))
+            .with(Series::reference("exact", column(&|r| r[3])));
     Ok(ExhibitData { tables: vec![table], plots: vec![plot], notes: vec![] })
 }
 
@@ -61,9 +65,11 @@ fn work_precision(backend: &dyn Backend, full: bool) -> Result<ExhibitData, Veri
         "Error at c = 0.1, root mean square over three places",
         &["surface", "operator", "R (cells)", "cost R^5", "drag", "settling"],
     );
-    let mut plot = Plot::new("Error against cost", Axis::log("R^5", "cells^5"), Axis::log("error of the drag", ""));
+    let mut plot =
+        Plot::new("Error against cost", Axis::log("R^5", "cells^5"), Axis::log("error of the drag", ""));
     for (name, wall) in WALLS {
-        for (operator, collision) in [("BGK, tau = 0.8", CollisionChoice::Bgk), ("TRT 3/16, tau = 0.8", TRT)] {
+        for (operator, collision) in [("BGK, tau = 0.8", CollisionChoice::Bgk), ("TRT 3/16, tau = 0.8", TRT)]
+        {
             let mut points = Vec::new();
             for &radius in radii {
                 let cells = (radius / radius_in_cube(0.1, 1.0)).round() as usize;

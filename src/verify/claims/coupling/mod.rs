@@ -36,7 +36,7 @@ pub static STUDY: Study = Study {
     mutants: &[mutants::WALL_FACTOR, mutants::LUBRICATION, mutants::REVERSED, mutants::COVERED_MASS],
     limits: &[
         "Forces between approaching spheres are made of what the lattice carries and of a lubrication force that begins at 2/3 of a cell; \
-         where they meet the sum is off by several per cent.",
+         where they meet, at 0.4 cells and R = 4, the sum is 7 % above the exact force.",
     ],
     agreement: Agreement::Bits,
 };

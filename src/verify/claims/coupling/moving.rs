@@ -9,9 +9,7 @@ use crate::rheology::Law;
 use crate::solver::run::{Backend, Run};
 use crate::solver::setup::{FlowPoint, Setup};
 use crate::verify::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
-use crate::verify::claims::immersed::{
-    WALLS, driven, grains, immersed, periodic, plain_suspension, sphere,
-};
+use crate::verify::claims::immersed::{WALLS, driven, grains, immersed, periodic, plain_suspension, sphere};
 use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
 
 const DIAMETER: f64 = 9.6;
@@ -23,15 +21,13 @@ fn norm(v: &[f64]) -> f64 {
 
 fn moving(cells: usize, wall: GrainWall, tau: f64, with_fluid: bool) -> Setup {
     let middle = 0.5 * cells as f64;
-    let grain = driven(sphere(0.5 * DIAMETER, [middle - 0.7, middle + 0.2, middle - 0.1]), VELOCITY, [0.0; 3]);
+    let grain =
+        driven(sphere(0.5 * DIAMETER, [middle - 0.7, middle + 0.2, middle - 0.1]), VELOCITY, [0.0; 3]);
     let mut setup = periodic([cells; 3], plain_suspension(grains(1.0, vec![grain]), wall));
     setup.fluids = vec![Law::Newtonian { mu: (tau - 0.5) / 3.0 }];
     if with_fluid {
-        setup.initial = Some(Arc::new(|_| FlowPoint {
-            density: 1.0,
-            velocity: VELOCITY,
-            gradient: [[0.0; 3]; 3],
-        }));
+        setup.initial =
+            Some(Arc::new(|_| FlowPoint { density: 1.0, velocity: VELOCITY, gradient: [[0.0; 3]; 3] }));
     }
     setup
 }
@@ -46,7 +42,7 @@ fn twin(backend: &dyn Backend, tau: f64) -> Result<Sample, VerifyError> {
     let (mut worst, mut drift) = (0.0_f64, 0.0_f64);
     for (_, wall) in WALLS {
         let mut run = backend.start(&moving(16, wall, tau, true))?;
-        for _ in 0..400 {
+        for _ in 0..200 {
             run.advance(1)?;
             let force = norm(&links(run.as_ref())?) / scale;
             worst = if force <= worst { worst } else { force };
@@ -67,10 +63,10 @@ pub const TWIN: Claim = Claim {
     id: "galilean-twin",
     title: "A sphere that moves with the fluid feels no force, whatever it covers and uncovers",
     tags: &["C1", "C2", "C3"],
-    measures: "largest |F|/(rho u^2 pi D^2/8) in 400 steps (9 cells of way), D = 9.6, u = (0.02, 0.011, 0.007), both kinds of surface",
+    measures: "largest |F|/(rho u^2 pi D^2/8) in 200 steps (5 cells of way), D = 9.6, u = (0.02, 0.011, 0.007), both kinds of surface",
     reference: Reference { source: "uniform flow", uncertainty: 0.0 },
     metric: Metric::Absolute,
-    ladder: Ladder { parameter: "tau", short: &[0.55, 0.8], full: &[0.51, 0.55, 0.8, 1.0, 2.0] },
+    ladder: Ladder { parameter: "tau", short: &[0.8], full: &[0.51, 0.55, 0.8, 1.0, 2.0] },
     order: None,
     tolerance: Tolerance {
         value: 1e-10,
@@ -130,7 +126,15 @@ fn noise(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> 
     let (cells, steps) = if full { (32, 4000) } else { (20, 1000) };
     let mut table = Table::new(
         "Noise of the force",
-        &["surface", "mean force", "noise/mean", "amplitude at u_x/dx", "at 2 u_x/dx", "at u_y/dx", "largest elsewhere"],
+        &[
+            "surface",
+            "mean force",
+            "noise/mean",
+            "amplitude at u_x/dx",
+            "at 2 u_x/dx",
+            "at u_y/dx",
+            "largest elsewhere",
+        ],
     );
     let mut plot = Plot::new(
         "Spectrum of the force",
@@ -163,8 +167,10 @@ fn noise(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> 
         };
         let spectrum: Vec<[f64; 2]> =
             (4..=240).map(|i| 0.0125 * f64::from(i)).map(|m| [m, amplitude(m)]).collect();
-        let away = |m: f64| [1.0, 2.0, 3.0, 0.55, 1.1, 1.65, 0.35, 0.7, 1.05].iter().all(|k| (m - k).abs() > 0.1);
-        let elsewhere = spectrum.iter().filter(|p| p[0] > 0.5 && away(p[0])).fold(0.0_f64, |m, p| m.max(p[1]));
+        let away =
+            |m: f64| [1.0, 2.0, 3.0, 0.55, 1.1, 1.65, 0.35, 0.7, 1.05].iter().all(|k| (m - k).abs() > 0.1);
+        let elsewhere =
+            spectrum.iter().filter(|p| p[0] > 0.5 && away(p[0])).fold(0.0_f64, |m, p| m.max(p[1]));
         table.push(vec![
             name.into(),
             mean.into(),

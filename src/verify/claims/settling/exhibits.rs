@@ -73,12 +73,16 @@ pub const OPERATORS: Exhibit = Exhibit {
 fn operators(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
     let times: &[f64] = if full { &[0.52, 0.55, 0.6, 0.8, 1.0, 2.0, 4.0] } else { &[0.8, 2.0] };
     let heads: Vec<String> = times.iter().map(|t| format!("tau = {t}")).collect();
-    let columns: Vec<&str> = ["operator", "surface"].into_iter().chain(heads.iter().map(String::as_str)).collect();
+    let columns: Vec<&str> =
+        ["operator", "surface"].into_iter().chain(heads.iter().map(String::as_str)).collect();
     let mut table = Table::new("Error of K, mean over three places", &columns);
     let mut plot = Plot::new("Error of the drag", Axis::log("tau - 1/2", ""), Axis::linear("error of K", ""));
     let reference = exact(cubic_array::drag(0.1))?;
-    let operators =
-        [("BGK", CollisionChoice::Bgk), ("TRT 3/16", TRT), ("central moments, 3/16", CollisionChoice::default())];
+    let operators = [
+        ("BGK", CollisionChoice::Bgk),
+        ("TRT 3/16", TRT),
+        ("central moments, 3/16", CollisionChoice::default()),
+    ];
     for (operator, collision) in operators {
         for (name, wall) in WALLS {
             let mut row = vec![operator.into(), name.into()];

@@ -127,7 +127,16 @@ fn ensembles(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyErr
     let fractions: &[f64] = if full { &[0.05, 0.1, 0.15, 0.2, 0.25, 0.3] } else { &[0.05, 0.15] };
     let mut table = Table::new(
         format!("u/u0, {boxes} boxes of {count} spheres, R = 2.5 cells, Re = 0.005"),
-        &["c", "in the box", "standard error", "correction", "corrected", "Richardson-Zaki", "(1 - c)^5.6", "Hayakawa-Ichiki"],
+        &[
+            "c",
+            "in the box",
+            "standard error",
+            "correction",
+            "corrected",
+            "Richardson-Zaki",
+            "(1 - c)^5.6",
+            "Hayakawa-Ichiki",
+        ],
     );
     let mut points = Vec::new();
     for &c in fractions {

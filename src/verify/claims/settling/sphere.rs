@@ -34,11 +34,7 @@ pub const HASIMOTO: Claim = Claim {
     measures: "drag K at c = 0.008 of a held sphere, interpolated surface, TRT 3/16, mean over three places",
     reference: Reference { source: "Hasimoto 1959, dilute series", uncertainty: 2e-5 },
     metric: Metric::Relative,
-    ladder: Ladder {
-        parameter: "N (cells along an edge)",
-        short: &[16.0, 20.0],
-        full: &[16.0, 20.0, 27.0, 40.0],
-    },
+    ladder: Ladder { parameter: "N (cells along an edge)", short: &[16.0], full: &[16.0, 20.0, 25.0, 32.0] },
     order: None,
     tolerance: Tolerance {
         value: 0.05,
@@ -95,7 +91,7 @@ pub const NORMAL_TO_WALL: Claim = Claim {
     measures: "drag over 6 pi mu R U, R = 3 cells, box of 8 R, interpolated surface, TRT 3/16",
     reference: Reference { source: "Brenner 1961, exact series", uncertainty: 1e-12 },
     metric: Metric::Relative,
-    ladder: Ladder { parameter: "gap over radius", short: &[0.5, 1.0], full: &[0.25, 0.5, 0.75, 1.0] },
+    ladder: Ladder { parameter: "gap over radius", short: &[1.0], full: &[0.25, 0.5, 0.75, 1.0] },
     order: None,
     tolerance: Tolerance {
         value: 0.06,
