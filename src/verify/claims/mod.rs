@@ -3,21 +3,24 @@
 use super::study::Study;
 
 pub mod columns;
+pub mod coupling;
 pub mod dam_break;
 pub mod film;
 pub mod free_surface;
 pub mod grains;
+pub mod immersed;
 pub mod moments;
 pub mod mutants_physics;
 pub mod piles;
 pub mod poiseuille;
+pub mod settling;
 pub mod slump;
 pub mod stability;
 pub mod unsteady;
 pub mod viscosity;
 pub mod work_precision;
 
-static STUDIES: [&Study; 12] = [
+static STUDIES: [&Study; 14] = [
     &moments::STUDY,
     &viscosity::STUDY,
     &poiseuille::STUDY,
@@ -30,6 +33,8 @@ static STUDIES: [&Study; 12] = [
     &work_precision::STUDY,
     &grains::STUDY,
     &piles::STUDY,
+    &settling::STUDY,
+    &coupling::STUDY,
 ];
 
 /// All studies, in the order of the report.

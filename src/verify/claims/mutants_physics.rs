@@ -65,9 +65,10 @@ impl Backend for Mistaken {
             collision: setup.collision,
         };
         let wrong = Wrong { right, mistake: self.0 };
-        match setup.free_surface {
-            Some(_) => Ok(Box::new(SurfaceRun::start(&setup, wrong)?)),
-            None => Ok(Box::new(PlainRun::start(&setup, wrong)?)),
+        if setup.free_surface.is_some() || setup.grains.is_some() {
+            Ok(Box::new(SurfaceRun::start(&setup, wrong)?))
+        } else {
+            Ok(Box::new(PlainRun::start(&setup, wrong)?))
         }
     }
 }
