@@ -44,6 +44,13 @@
 //! | D4 | clumps: union, rotation | `dem/clump.rs`, `dem/rotation.rs` | `clump-two-spheres`, `free-clump-flip-period` |
 //! | D5 | walls of grains | `dem/walls/` | `mesh-edge-and-corner`, `mesh-rolling` |
 //! | D6 | neighbours, order of sums | `dem/neighbours/` | `neighbours-complete`, `same-bits-on-threads` |
+//! | C1 | covered cells, links, wall velocity | `coupling/coverage.rs`, `link.rs` | `galilean-twin`, `cubic-array-drag` |
+//! | C2 | force and torque by momentum exchange | `coupling/exchange.rs` | `galilean-twin`, `sphere-spin-in-shear` |
+//! | C3 | covering, uncovering, refill, books | `coupling/cover.rs`, `refill.rs` | `stirred-pool-books`, `moving-sphere-mass` |
+//! | C4 | sub-cycling | `coupling/subcycle.rs` | test `parity_of_grains_in_a_fluid` |
+//! | C5 | lubrication | `coupling/lubrication.rs` | `lubrication-approach` |
+//! | C6 | surface velocity, implicit in link friction | `coupling/predict.rs` | `coupled-density-ratios` |
+//! | C7 | load on fixed solids | `solver/books.rs` | `wall-hydrostatic-load` |
 
 pub mod bench;
 pub mod boundary;

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 impl Immersed {
     /// Takes newly covered cells out of the fluid and gives freed ones back.
-    pub(super) fn apply<H: Host>(&mut self, host: &mut H, changes: &Changes) {
+    pub(super) fn apply(&mut self, host: &mut dyn Host, changes: &Changes) {
         for &(cell, grain) in &changes.covered {
             let cell = cell as usize;
             let kind = host.kind(cell);
@@ -71,7 +71,7 @@ impl Immersed {
     }
 
     /// Takes grains out of the run: their cells become fluid or gas again, and the others are numbered anew.
-    pub fn leave<H: Host>(&mut self, host: &mut H, keep: &[bool]) {
+    pub fn leave(&mut self, host: &mut dyn Host, keep: &[bool]) {
         let mut changes = Changes::default();
         for grain in (0..self.grains()).filter(|&grain| !keep[grain]) {
             let freed = self.coverage.clear(grain);
@@ -97,7 +97,7 @@ impl Immersed {
     /// too, else gas. Liquid never touches gas that way.
     ///
     /// The fill of an interface cell is the mean around it.
-    fn kinds_of_freed<H: Host>(&self, host: &H, changes: &Changes) -> Vec<(Kind, f64)> {
+    fn kinds_of_freed(&self, host: &dyn Host, changes: &Changes) -> Vec<(Kind, f64)> {
         let mut decided: BTreeMap<u32, (Kind, f64)> = BTreeMap::new();
         for &(cell, _) in &changes.freed {
             let (mut gas, mut liquid, mut interface) = (0, 0, 0);
@@ -136,9 +136,9 @@ impl Immersed {
     }
 
     /// `share`: ρ − 1 that would settle what the grain owes.
-    fn uncovered<H: Host>(
+    fn uncovered(
         &self,
-        host: &H,
+        host: &dyn Host,
         cell: usize,
         grain: usize,
         (kind, fill): (Kind, f64),

@@ -13,7 +13,6 @@ use crate::boundary::links::Source;
 use crate::free_surface::Kind;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{C, W};
-use crate::solver::physics::Physics;
 use rayon::prelude::*;
 
 /// A link whose outer cell holds fluid.
@@ -98,18 +97,22 @@ pub(super) struct Returned {
 
 impl Immersed {
     /// Returns populations from all surfaces and finds the forces on all grains; between collision and streaming.
-    pub fn exchange<H: Host>(&mut self, host: &mut H) {
+    pub fn exchange(&mut self, host: &mut dyn Host) {
         let force = host.setup().force.at(host.step_number());
         let returned = {
             let (this, host) = (&*self, &*host);
-            host.install(|| {
+            let work = || {
                 let all = 0..this.grains();
                 let gathered: Vec<Gathered> =
                     all.clone().into_par_iter().map(|grain| this.gather(host, grain)).collect();
                 all.into_par_iter()
                     .map(|grain| this.answer(host, grain, &gathered, &force))
                     .collect::<Vec<Returned>>()
-            })
+            };
+            match host.pool() {
+                Some(pool) => pool.install(work),
+                None => work(),
+            }
         };
         for (grain, own) in returned.into_iter().enumerate() {
             for &(cell, i, value) in &own.values {
@@ -127,7 +130,7 @@ impl Immersed {
     }
 
     /// First look at the links of a grain.
-    fn gather<H: Host>(&self, host: &H, grain: usize) -> Gathered {
+    fn gather(&self, host: &dyn Host, grain: usize) -> Gathered {
         let cover = self.coverage.of(grain);
         let mut found = Gathered { open: Vec::with_capacity(cover.links.len()), ..Gathered::default() };
         let balls = self.balls(grain);
@@ -179,7 +182,7 @@ impl Immersed {
     }
 
     /// One link with the surface at rest.
-    fn look<H: Host>(&self, host: &H, link: &Link, balls: &[Ball], (rho, r, wet): (f64, L3, f64)) -> Open {
+    fn look(&self, host: &dyn Host, link: &Link, balls: &[Ball], (rho, r, wet): (f64, L3, f64)) -> Open {
         let out = usize::from(link.out);
         let leaving = host.after_one(link.cell as usize, out);
         let c = C[out].map(f64::from);
@@ -221,7 +224,7 @@ impl Immersed {
     }
 
     /// Velocity of the surface, populations returned, force and torque.
-    fn answer<H: Host>(&self, host: &H, grain: usize, all: &[Gathered], force: &L3) -> Returned {
+    fn answer(&self, host: &dyn Host, grain: usize, all: &[Gathered], force: &L3) -> Returned {
         let own = &all[grain];
         let motion = self.motion(grain);
         let held = self.blocked_force(host, grain, all);
@@ -260,9 +263,9 @@ impl Immersed {
     /// # Source
     /// Wen, Zhang, Tu, Wang & Fang 2014, J. Comput. Phys. 266, 161 (Galilean invariant momentum exchange), with
     /// populations f − w: the pressure of the gas acts on all sides alike and drops out.
-    fn close<H: Host>(
+    fn close(
         &self,
-        host: &H,
+        host: &dyn Host,
         open: &Open,
         w: &[f64; 6],
         (volumes, ideal): (&Volumes, f64),
@@ -295,14 +298,13 @@ impl Immersed {
     }
 
     /// Velocity of the surface at a link, and what it adds to a half-way link \[B1\].
-    fn moving<H: Host>(&self, host: &H, (arm, out): (&L3, usize), rho: f64, w: &[f64; 6]) -> (L3, f64) {
+    fn moving(&self, host: &dyn Host, (arm, out): (&L3, usize), rho: f64, w: &[f64; 6]) -> (L3, f64) {
         let spin = match self.config.mutant {
             Mutant::ReversedProduct => [-w[3], -w[4], -w[5]],
             _ => [w[3], w[4], w[5]],
         };
         let u = surface_velocity([w[0], w[1], w[2]], spin, *arm);
-        let physics = host.physics();
-        (u, physics.wall(0.0, out, rho, &u) + physics.wall_cubic(out, rho, &u))
+        (u, host.moving_wall(out, rho, &u))
     }
 
     /// What the surface of a grain displaces, and what of it cannot go where it should.
@@ -312,7 +314,7 @@ impl Immersed {
     /// cancel, so that those of all links but the blocked ones tell what is missing. And a link to a liquid cell
     /// returns all of its mass even where the other end is only partly wet: the interface cells around take the rest
     /// back, or a body that sinks through the surface would push half a layer of cells too much.
-    fn volumes<H: Host>(&self, host: &H, own: &Gathered, w: &[f64; 6]) -> Volumes {
+    fn volumes(&self, host: &dyn Host, own: &Gathered, w: &[f64; 6]) -> Volumes {
         let mut volumes = Volumes { ideal: Vec::with_capacity(own.open.len()), ..Volumes::default() };
         let (mut liquid, mut interface, mut excess, mut all, mut surplus) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for link in &own.open {
@@ -360,7 +362,7 @@ impl Immersed {
     /// Force and torque of the fluid that is pressed between a grain and a wall or another grain, too thin for a cell:
     /// the pressure around the grain, continued. Between two grains the mean of the two, so that what one feels
     /// the other feels too.
-    fn blocked_force<H: Host>(&self, host: &H, grain: usize, all: &[Gathered]) -> [f64; 6] {
+    fn blocked_force(&self, host: &dyn Host, grain: usize, all: &[Gathered]) -> [f64; 6] {
         let mut sum = [0.0; 6];
         let own = &all[grain];
         if !own.blocked {

@@ -2,7 +2,6 @@
 
 use crate::free_surface::Kind;
 use crate::lattice::Q;
-use crate::solver::physics::Physics;
 use crate::solver::setup::Setup;
 
 /// A cell that a grain has given free.
@@ -18,13 +17,11 @@ pub struct Uncovered {
 
 /// The cells of a run, by number in the box.
 pub trait Host: Sync {
-    /// The equations of one cell.
-    type Physics: Physics;
-
     /// The set-up.
     fn setup(&self) -> &Setup;
-    /// The equations.
-    fn physics(&self) -> &Self::Physics;
+    /// What a wall moving with `u` adds to a half-way link along c_i from a cell of density `rho` \[B1\], with the
+    /// cubic part of the equilibrium.
+    fn moving_wall(&self, i: usize, rho: f64, u: &[f64; 3]) -> f64;
     /// Steps taken so far.
     fn step_number(&self) -> u64;
     /// Kind of a cell; covered cells are solid.
@@ -55,6 +52,6 @@ pub trait Host: Sync {
     fn book(&mut self, mass: f64, momentum: &[f64; 3]);
     /// Liquid and interface cells.
     fn fluid_count(&self) -> u64;
-    /// Runs work on the backend's threads.
-    fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R;
+    /// The backend's threads.
+    fn pool(&self) -> Option<&rayon::ThreadPool>;
 }

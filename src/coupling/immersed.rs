@@ -97,7 +97,7 @@ impl Immersed {
     }
 
     /// Takes the grains' cells out of the fluid as it was drawn; before the ledger is opened.
-    pub fn start<H: Host>(&mut self, host: &mut H) {
+    pub fn start(&mut self, host: &mut dyn Host) {
         for (cell, _) in std::mem::take(&mut self.first).covered {
             host.cover(cell as usize);
         }
@@ -199,7 +199,7 @@ impl Immersed {
     }
 
     /// Covers and uncovers cells after the grains have moved.
-    pub(super) fn follow<H: Host>(&mut self, host: &mut H) {
+    pub(super) fn follow(&mut self, host: &mut dyn Host) {
         let changes = self.update_coverage(host.setup());
         self.apply(host, &changes);
     }
@@ -303,7 +303,7 @@ impl Immersed {
     }
 
     /// Whether a cell is fluid for a host: not gas, not solid.
-    pub(super) fn is_fluid<H: Host>(host: &H, cell: usize) -> bool {
+    pub(super) fn is_fluid(host: &dyn Host, cell: usize) -> bool {
         matches!(host.kind(cell), Kind::Liquid | Kind::Interface)
     }
 }

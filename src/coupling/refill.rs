@@ -19,7 +19,7 @@ impl Immersed {
     ///
     /// Neighbours that were given free in the same step have nothing to tell; without any other the cell starts
     /// at the reference density.
-    pub(super) fn refill<H: Host>(&self, host: &H, cell: usize, grain: usize, share: f64) -> [f64; Q] {
+    pub(super) fn refill(&self, host: &dyn Host, cell: usize, grain: usize, share: f64) -> [f64; Q] {
         let w = self.motion(grain);
         let arm = self.shape.apart(&self.shape.centre(cell), &self.centre(grain));
         let wall = surface_velocity([w[0], w[1], w[2]], [w[3], w[4], w[5]], arm);

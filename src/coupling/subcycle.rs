@@ -11,9 +11,12 @@ impl Immersed {
     ///
     /// # Errors
     /// The grains could not go on ([`Immersed::failure`]), or one is faster than the fluid may be.
-    pub fn advance<H: Host>(&mut self, host: &mut H) -> Result<(), Stopped> {
+    pub fn advance(&mut self, host: &mut dyn Host) -> Result<(), Stopped> {
         let before: Vec<([f64; 6], V3)> = (0..self.grains()).map(|grain| self.momenta_of(grain)).collect();
-        let moved = host.install(|| self.sub_steps());
+        let moved = match host.pool() {
+            Some(pool) => pool.install(|| self.sub_steps()),
+            None => self.sub_steps(),
+        };
         if let Err(error) = moved {
             let grain = match &error {
                 crate::dem::DemError::Overlap { grains, .. } => grains.0,
@@ -43,7 +46,7 @@ impl Immersed {
         Ok(())
     }
 
-    fn stopped<H: Host>(&self, host: &H, grain: usize, what: Runaway) -> Stopped {
+    fn stopped(&self, host: &dyn Host, grain: usize, what: Runaway) -> Stopped {
         let centre = self.centre(grain);
         let cell = std::array::from_fn(|a| {
             let n = self.shape.extents[a] as i64;

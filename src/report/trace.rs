@@ -6,9 +6,9 @@ use super::Chapter;
 use super::format::table;
 
 /// Equations of the design that this version implements.
-const DESIGN: [&str; 27] = [
+const DESIGN: [&str; 34] = [
     "L1", "L2", "L3", "L4", "L5", "L6", "L7", "Y1", "Y2", "Y3", "Y4", "Y5", "K1", "K2", "K3", "K4", "K5",
-    "K6", "B1", "B2", "B3", "D1", "D2", "D3", "D4", "D5", "D6",
+    "K6", "B1", "B2", "B3", "D1", "D2", "D3", "D4", "D5", "D6", "C1", "C2", "C3", "C4", "C5", "C6", "C7",
 ];
 
 /// Equations of the papers: paper, prefix of the number, last number.

@@ -37,11 +37,11 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     }
 
     pub(super) fn start_grains(&mut self) {
-        self.with_grains(Immersed::start);
+        self.with_grains(|grains, run| grains.start(run));
     }
 
     pub(super) fn exchange_with_grains(&mut self) {
-        self.with_grains(Immersed::exchange);
+        self.with_grains(|grains, run| grains.exchange(run));
     }
 
     pub(super) fn take_grains_out(&mut self, keep: &[bool]) {
@@ -49,7 +49,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     }
 
     pub(super) fn move_grains(&mut self) -> Result<(), Stopped> {
-        self.with_grains(Immersed::advance).unwrap_or(Ok(()))
+        self.with_grains(|grains, run| grains.advance(run)).unwrap_or(Ok(()))
     }
 
     /// Block and place of a cell, which gets a block if it has none.
@@ -63,13 +63,11 @@ impl<P: Physics, E: Element> FastRun<P, E> {
 }
 
 impl<P: Physics, E: Element> Host for FastRun<P, E> {
-    type Physics = P;
-
     fn setup(&self) -> &Setup {
         &self.setup
     }
-    fn physics(&self) -> &P {
-        &self.physics
+    fn moving_wall(&self, i: usize, rho: f64, u: &[f64; 3]) -> f64 {
+        self.physics.wall(0.0, i, rho, u) + self.physics.wall_cubic(i, rho, u)
     }
     fn step_number(&self) -> u64 {
         self.step
@@ -154,10 +152,7 @@ impl<P: Physics, E: Element> Host for FastRun<P, E> {
     fn fluid_count(&self) -> u64 {
         self.surface.as_ref().map_or(0, |surface| surface.counts[0] + surface.counts[1])
     }
-    fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        match &self.pool {
-            Some(pool) => pool.install(work),
-            None => work(),
-        }
+    fn pool(&self) -> Option<&rayon::ThreadPool> {
+        self.pool.as_ref()
     }
 }

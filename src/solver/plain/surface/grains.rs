@@ -32,11 +32,11 @@ impl<P: Physics> SurfaceRun<P> {
     }
 
     pub(super) fn start_grains(&mut self) {
-        self.with_grains(Immersed::start);
+        self.with_grains(|grains, run| grains.start(run));
     }
 
     pub(super) fn exchange_with_grains(&mut self) {
-        self.with_grains(Immersed::exchange);
+        self.with_grains(|grains, run| grains.exchange(run));
     }
 
     pub(super) fn take_grains_out(&mut self, keep: &[bool]) {
@@ -63,13 +63,11 @@ impl<P: Physics> SurfaceRun<P> {
 }
 
 impl<P: Physics> Host for SurfaceRun<P> {
-    type Physics = P;
-
     fn setup(&self) -> &Setup {
         &self.setup
     }
-    fn physics(&self) -> &P {
-        &self.physics
+    fn moving_wall(&self, i: usize, rho: f64, u: &[f64; 3]) -> f64 {
+        self.physics.wall(0.0, i, rho, u) + self.physics.wall_cubic(i, rho, u)
     }
     fn step_number(&self) -> u64 {
         self.step
@@ -140,10 +138,7 @@ impl<P: Physics> Host for SurfaceRun<P> {
     fn fluid_count(&self) -> u64 {
         SurfaceRun::fluid_count(self)
     }
-    fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        match &self.pool {
-            Some(pool) => pool.install(work),
-            None => work(),
-        }
+    fn pool(&self) -> Option<&rayon::ThreadPool> {
+        self.pool.as_ref()
     }
 }
