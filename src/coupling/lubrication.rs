@@ -345,8 +345,8 @@ mod tests {
             let t = tangential(0.3, a, b, 1e-3, 0.5);
             let speed = -(a + b); // of n × ω
             let force = -t.force * speed - t.first - t.second;
-            let first = t.first * speed * -1.0 - t.spins[0] - t.spins[2];
-            let second = t.second * speed * -1.0 - t.spins[1] - t.spins[2];
+            let first = -(t.first * speed) - t.spins[0] - t.spins[2];
+            let second = -(t.second * speed) - t.spins[1] - t.spins[2];
             for (sum, size) in [(force, t.first), (first, t.spins[0]), (second, t.spins[1])] {
                 // A dozen roundings.
                 assert!(sum.abs() < 1e-14 * size.max(1.0), "{sum} {size}");

@@ -94,7 +94,7 @@ impl Immersed {
     }
 
     /// Adds the state of the grains to a fingerprint.
-    pub fn hash(&self, hasher: &mut Hasher) {
+    pub fn add_to_hash(&self, hasher: &mut Hasher) {
         let bodies = self.dem.bodies();
         for i in 0..bodies.len() {
             let vectors = [

@@ -111,7 +111,7 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
         }
         self.hash_rest(&mut hasher);
         if let Some(grains) = &self.grains {
-            grains.hash(&mut hasher);
+            grains.add_to_hash(&mut hasher);
         }
         let totals = self.totals();
         Fingerprint {

@@ -93,7 +93,7 @@ impl<P: Physics> Run for SurfaceRun<P> {
             }
         }
         if let Some(grains) = &self.grains {
-            grains.hash(&mut hasher);
+            grains.add_to_hash(&mut hasher);
         }
         let totals = self.totals();
         Fingerprint {
