@@ -21,6 +21,7 @@ pub static STUDY: Study = Study {
         moving::TWIN,
         moving::MASS,
         free::DENSITY_RATIOS,
+        free::RATTLE,
         free::NEUTRAL,
         free::NEUTRAL_IN_POOL,
         free::SPHERE_SPIN,
@@ -36,7 +37,9 @@ pub static STUDY: Study = Study {
     mutants: &[mutants::WALL_FACTOR, mutants::LUBRICATION, mutants::REVERSED, mutants::COVERED_MASS],
     limits: &[
         "Forces between approaching spheres are made of what the lattice carries and of a lubrication force that begins at 2/3 of a cell; \
-         where they meet, at 0.4 cells and R = 4, the sum is 7 % above the exact force.",
+         where they meet the sum is up to 7 % above the exact force (gap of 0.4 cells, R = 4).",
+        "The spin of a sphere in shear is up to 0.15/R^2 too slow; that constant was set after a first look.",
+        "A floating sphere lies some 0.2 cells too high: 5 % of its volume at R = 3.2, 2 % at 6.",
     ],
     agreement: Agreement::Bits,
 };

@@ -31,7 +31,7 @@ pub const REVERSED: Mutant = Mutant {
     erratum: "ERRATA 18 (004 Eq 3.38)",
     description: "The surface of a grain in the fluid moves with u = u_p + r x omega, as printed.",
     caught_by: "sphere-spin-in-shear",
-    rung: Some(2.5),
+    rung: Some(2.0),
     subject: Subject::Measure(|backend, radius| free::sphere_spin(backend, radius, Wrong::ReversedProduct)),
 };
 

@@ -11,7 +11,7 @@ mod random;
 mod sphere;
 mod yielding;
 
-pub use arrays::{TRT, array};
+pub use arrays::{TRT, array, over_places};
 
 /// The study.
 pub static STUDY: Study = Study {

@@ -86,7 +86,7 @@ pub const MOVING: Claim = Claim {
     measures: "drag over 6 pi mu R V against the fit at the Bingham number found",
     reference: Reference { source: "Blackery & Mitsoulis 1997: 1 + 2.93 Bn^0.83", uncertainty: 0.05 },
     metric: Metric::Relative,
-    ladder: Ladder { parameter: "yield number", short: &[0.08], full: &[0.04, 0.08, 0.11] },
+    ladder: Ladder { parameter: "yield number", short: &[0.08], full: &[0.07, 0.08, 0.1] },
     order: None,
     tolerance: Tolerance {
         value: 0.08,
