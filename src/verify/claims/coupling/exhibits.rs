@@ -97,9 +97,9 @@ fn work_precision(backend: &dyn Backend, full: bool) -> Result<ExhibitData, Veri
         }
     }
     let notes = vec![
-        "Recommendation: interpolated surface with Lambda = 3/16. It has the error of half-way links at less than half the radius, for a \
-         few per cent more work, and does not depend on the viscosity. Half-way links need no second fluid cell and stay the choice where \
-         grains touch walls and each other most of the time."
+        "Recommendation: two relaxation times with Lambda = 3/16, the only choice here whose drag does not depend on the viscosity, and \
+             the interpolated surface from a radius of three cells on: it converges at second order. At two cells it is hardly better than \
+             half-way links, which need no second fluid cell and stay the choice where grains touch walls and each other most of the time."
             .to_owned(),
     ];
     Ok(ExhibitData { tables: vec![table], plots: vec![plot], notes })
