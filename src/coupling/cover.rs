@@ -20,10 +20,10 @@ impl Immersed {
             let mut mass = host.take_parked(cell);
             let mut taken = [0.0; 3];
             if kind.is_fluid() {
-                let f = host.arrived(cell);
+                let f = host.populations(cell);
                 taken = momentum(&f);
                 let rho = 1.0 + density_excess(&f);
-                mass += if kind == Kind::Liquid { rho } else { host.interface_mass(cell) };
+                mass += if kind == Kind::Liquid { rho } else { host.mass(cell) };
                 if kind == Kind::Liquid {
                     self.owed[grain as usize] += rho - 1.0;
                 }

@@ -2,6 +2,7 @@
 
 use crate::free_surface::Kind;
 use crate::lattice::Q;
+use crate::solver::conversion::Cells;
 use crate::solver::setup::Setup;
 
 /// A cell that a grain has given free.
@@ -15,8 +16,8 @@ pub struct Uncovered {
     pub mass: f64,
 }
 
-/// The cells of a run, by number in the box.
-pub trait Host: Sync {
+/// The cells of a run with grains, besides what conversions need of them; covered cells are solid.
+pub trait Host: Cells + Sync {
     /// The set-up.
     fn setup(&self) -> &Setup;
     /// What a wall moving with `u` adds to a half-way link along c_i from a cell of density `rho` \[B1\], with the
@@ -24,12 +25,6 @@ pub trait Host: Sync {
     fn moving_wall(&self, i: usize, rho: f64, u: &[f64; 3]) -> f64;
     /// Steps taken so far.
     fn step_number(&self) -> u64;
-    /// Kind of a cell; covered cells are solid.
-    fn kind(&self, cell: usize) -> Kind;
-    /// φ of an interface cell before the exchange of this step.
-    fn fill(&self, cell: usize) -> f64;
-    /// m of an interface cell.
-    fn interface_mass(&self, cell: usize) -> f64;
     /// Populations after the last collision; the cell is fluid or was at that collision.
     fn after(&self, cell: usize) -> [f64; Q];
     /// A number as a population is kept.
@@ -38,16 +33,12 @@ pub trait Host: Sync {
     fn after_one(&self, cell: usize, i: usize) -> f64;
     /// Puts what streaming will take out of a covered cell.
     fn put(&mut self, cell: usize, i: usize, value: f64);
-    /// Populations of a fluid cell before the next collision.
-    fn arrived(&self, cell: usize) -> [f64; Q];
     /// Fluid or gas becomes solid.
     fn cover(&mut self, cell: usize);
     /// A covered cell becomes something else.
     fn uncover(&mut self, cell: usize, to: &Uncovered);
     /// Takes the excess mass parked in a cell.
     fn take_parked(&mut self, cell: usize) -> f64;
-    /// Adds to m of an interface cell.
-    fn gain(&mut self, cell: usize, mass: f64);
     /// Books mass and momentum that came into the fluid from grains.
     fn book(&mut self, mass: f64, momentum: &[f64; 3]);
     /// Liquid and interface cells.

@@ -9,7 +9,6 @@ use super::lubrication::Gaps;
 use super::report::CouplingBooks;
 use crate::dem::bodies::SPHERE;
 use crate::dem::{Dem, DemError, V3};
-use crate::free_surface::Kind;
 use crate::solver::setup::Setup;
 
 /// Force and torque on one grain in the last step, lattice units: (F, T).
@@ -31,6 +30,14 @@ impl BodyLoad {
     pub fn total(&self) -> [f64; 6] {
         std::array::from_fn(|a| self.links[a] + self.held[a] + self.rest[a])
     }
+}
+
+/// Body force of a step, with the pressure gradient that balances the weight of grains, if there are any.
+#[must_use]
+pub fn body_force(setup: &Setup, step: u64, grains: Option<&Immersed>) -> L3 {
+    let force = setup.force.at(step);
+    let Some(grains) = grains else { return force };
+    std::array::from_fn(|a| force[a] + grains.gradient[a])
 }
 
 /// Grains in a fluid.
@@ -300,10 +307,5 @@ impl Immersed {
         let turn = bodies.orientation[grain].to_rotation_matrix();
         let full = turn.matrix() * nalgebra::Matrix3::from_diagonal(&principal) * turn.matrix().transpose();
         std::array::from_fn(|a| std::array::from_fn(|b| full[(a, b)]))
-    }
-
-    /// Whether a cell is fluid for a host: not gas, not solid.
-    pub(super) fn is_fluid(host: &dyn Host, cell: usize) -> bool {
-        matches!(host.kind(cell), Kind::Liquid | Kind::Interface)
     }
 }

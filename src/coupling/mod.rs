@@ -8,8 +8,8 @@
 //!
 //! | tag | equation | file |
 //! | --- | --- | --- |
-//! | C1 | covered cells, links, wall velocity | `coverage.rs`, `link.rs` |
-//! | C2 | force and torque by momentum exchange | `exchange.rs` |
+//! | C1 | covered cells, links, wall velocity | `coverage.rs`, `link.rs`, `gather.rs` |
+//! | C2 | force and torque by momentum exchange | `exchange.rs`, `held.rs` |
 //! | C3 | covering, uncovering, refill, ledger | `cover.rs`, `refill.rs` |
 //! | C4 | sub-cycling | `subcycle.rs` |
 //! | C5 | lubrication | `lubrication.rs` |
@@ -23,6 +23,8 @@ pub mod config;
 mod cover;
 mod coverage;
 mod exchange;
+mod gather;
+mod held;
 mod host;
 mod immersed;
 mod link;
@@ -35,7 +37,7 @@ mod subcycle;
 
 pub use config::{GrainRefill, GrainWall, Lubrication, Mutant, RefillMass, Suspension, VolumeRule};
 pub use host::{Host, Uncovered};
-pub use immersed::{BodyLoad, Immersed};
+pub use immersed::{BodyLoad, Immersed, body_force};
 pub use lubrication::{normal as lubrication_normal, tangential as lubrication_tangential};
 pub use report::{CouplingBooks, GrainTotals};
 

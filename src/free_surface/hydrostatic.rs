@@ -2,8 +2,9 @@
 
 use super::Kind;
 
-/// Axis of the largest force component.
-fn axis_of(force: &[f64; 3]) -> usize {
+/// Axis of the largest force component; the later of equals.
+#[must_use]
+pub fn axis_of(force: &[f64; 3]) -> usize {
     let mut axis = 2;
     for a in [1, 0] {
         if force[a].abs() > force[axis].abs() {

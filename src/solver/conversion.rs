@@ -169,8 +169,20 @@ pub fn mirrored(i: usize, from: usize, a: usize) -> f64 {
     if C[i][a] == C[from][a] { 1.0 } else { -1.0 }
 }
 
-/// Populations of a new interface cell, from the mean of its fluid neighbours before conversion.
-fn refill(cells: &impl Cells, rules: &FreeSurface, cell: usize) -> Cell {
+/// Means over the fluid neighbours of a cell.
+#[derive(Clone, Copy, Debug)]
+pub struct Neighbourhood {
+    /// ρ − 1.
+    pub d_rho: f64,
+    /// u without force.
+    pub u: [f64; 3],
+    /// Populations beyond equilibrium.
+    pub beyond: [f64; Q],
+}
+
+/// Means over the fluid neighbours of a cell, seen through mirror planes; `None` without any. `stress`: with
+/// [`Neighbourhood::beyond`], else zero.
+pub fn neighbourhood<C: Cells + ?Sized>(cells: &C, cell: usize, stress: bool) -> Option<Neighbourhood> {
     let mut rho = [0.0; Q];
     let mut u = [[0.0; Q]; 3];
     let mut parts = [[0.0; Q]; Q];
@@ -188,7 +200,7 @@ fn refill(cells: &impl Cells, rules: &FreeSurface, cell: usize) -> Cell {
         for a in 0..3 {
             u[a][i] = mirrored(i, direction, a) * m.u[a];
         }
-        if rules.refill == Refill::WithStress {
+        if stress {
             let rest = equilibrium(m.d_rho, m.rho, &m.u);
             for (d, part) in parts.iter_mut().enumerate() {
                 let d_from = reflected(d, i, direction);
@@ -196,13 +208,22 @@ fn refill(cells: &impl Cells, rules: &FreeSurface, cell: usize) -> Cell {
             }
         }
     }
-    let mean = |parts: &[f64; Q]| density_excess(parts) / f64::from(count.max(1));
-    let d_rho = mean(&rho);
-    let u = [mean(&u[0]), mean(&u[1]), mean(&u[2])];
-    let rest = equilibrium(d_rho, 1.0 + d_rho, &u);
+    let mean = |parts: &[f64; Q]| density_excess(parts) / f64::from(count);
+    (count > 0).then(|| Neighbourhood {
+        d_rho: mean(&rho),
+        u: [mean(&u[0]), mean(&u[1]), mean(&u[2])],
+        beyond: std::array::from_fn(|d| mean(&parts[d])),
+    })
+}
+
+/// Populations of a new interface cell, from the mean of its fluid neighbours before conversion.
+fn refill(cells: &impl Cells, rules: &FreeSurface, cell: usize) -> Cell {
+    let stress = rules.refill == Refill::WithStress;
+    let Some(around) = neighbourhood(cells, cell, stress) else { return [0.0; Q] };
+    let rest = equilibrium(around.d_rho, 1.0 + around.d_rho, &around.u);
     match rules.refill {
         Refill::Equilibrium => rest,
-        Refill::WithStress => std::array::from_fn(|d| rest[d] + mean(&parts[d])),
+        Refill::WithStress => std::array::from_fn(|d| rest[d] + around.beyond[d]),
     }
 }
 
@@ -335,6 +356,7 @@ fn move_parked(cells: &impl Cells, all: &mut BTreeMap<u32, f64>, step: u64, forc
 fn touches_interface(cells: &impl Cells, cell: usize, i: usize) -> bool {
     cells.neighbour_along(cell, i).is_some_and(|n| cells.kind(n) == Kind::Interface)
 }
+
 /// Direction at the source that direction `d` at the receiver becomes through the mirror planes between
 /// direction `i` and `from`.
 fn reflected(d: usize, i: usize, from: usize) -> usize {

@@ -5,12 +5,11 @@ use super::kernel::index;
 use super::layout::NONE;
 use super::run::FastRun;
 use super::surface::InterfaceCell;
-use crate::coupling::{Host, Immersed, Uncovered};
+use crate::coupling::{Host, Immersed, Uncovered, body_force};
 use crate::free_surface::Kind;
 use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
-use crate::solver::conversion::Cells;
 use crate::solver::physics::Physics;
 use crate::solver::run::Stopped;
 use crate::solver::setup::{Setup, YieldTreatment};
@@ -18,14 +17,7 @@ use crate::solver::setup::{Setup, YieldTreatment};
 impl<P: Physics, E: Element> FastRun<P, E> {
     /// Body force of this step, with the pressure gradient that balances the weight of grains.
     pub(super) fn body_force(&self) -> [f64; 3] {
-        let force = self.setup.force.at(self.step);
-        match &self.grains {
-            Some(grains) => {
-                let gradient = grains.gradient();
-                std::array::from_fn(|a| force[a] + gradient[a])
-            }
-            None => force,
-        }
+        body_force(&self.setup, self.step, self.grains.as_deref())
     }
 
     /// Runs `work` on the grains and the cells.
@@ -72,15 +64,6 @@ impl<P: Physics, E: Element> Host for FastRun<P, E> {
     fn step_number(&self) -> u64 {
         self.step
     }
-    fn kind(&self, cell: usize) -> Kind {
-        Cells::kind(self, cell)
-    }
-    fn fill(&self, cell: usize) -> f64 {
-        Cells::fill(self, cell)
-    }
-    fn interface_mass(&self, cell: usize) -> f64 {
-        Cells::mass(self, cell)
-    }
     fn after(&self, cell: usize) -> [f64; Q] {
         let Some((number, local)) = self.find(cell) else { return [0.0; Q] };
         let own = self.old[number].get();
@@ -96,9 +79,6 @@ impl<P: Physics, E: Element> Host for FastRun<P, E> {
         if let Some((number, local)) = self.find(cell) {
             self.old[number].get_mut()[index::<E>(local, i)] = E::from_f64(value);
         }
-    }
-    fn arrived(&self, cell: usize) -> [f64; Q] {
-        Cells::populations(self, cell)
     }
     fn cover(&mut self, cell: usize) {
         let Some((number, _)) = self.find_or_make(cell) else { return };
@@ -139,9 +119,6 @@ impl<P: Physics, E: Element> Host for FastRun<P, E> {
     }
     fn take_parked(&mut self, cell: usize) -> f64 {
         self.surface.as_mut().and_then(|surface| surface.parked.remove(&(cell as u32))).unwrap_or(0.0)
-    }
-    fn gain(&mut self, cell: usize, mass: f64) {
-        Cells::add_mass(self, cell, mass);
     }
     fn book(&mut self, mass: f64, momentum: &[f64; 3]) {
         if let Some(surface) = &mut self.surface {

@@ -1,7 +1,7 @@
 //! Grains in the fluid: the arrays of this backend for [`crate::coupling`].
 
 use super::SurfaceRun;
-use crate::coupling::{Host, Immersed, Uncovered};
+use crate::coupling::{Host, Immersed, Uncovered, body_force};
 use crate::free_surface::Kind;
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
@@ -13,14 +13,7 @@ use crate::solver::setup::{Setup, YieldTreatment};
 impl<P: Physics> SurfaceRun<P> {
     /// Body force of this step, with the pressure gradient that balances the weight of grains.
     pub(super) fn body_force(&self) -> [f64; 3] {
-        let force = self.setup.force.at(self.step);
-        match &self.grains {
-            Some(grains) => {
-                let gradient = grains.gradient();
-                std::array::from_fn(|a| force[a] + gradient[a])
-            }
-            None => force,
-        }
+        body_force(&self.setup, self.step, self.grains.as_deref())
     }
 
     /// Runs `work` on the grains and the cells.
@@ -72,15 +65,6 @@ impl<P: Physics> Host for SurfaceRun<P> {
     fn step_number(&self) -> u64 {
         self.step
     }
-    fn kind(&self, cell: usize) -> Kind {
-        self.kinds[cell]
-    }
-    fn fill(&self, cell: usize) -> f64 {
-        self.fill[cell]
-    }
-    fn interface_mass(&self, cell: usize) -> f64 {
-        self.mass[cell]
-    }
     fn after(&self, cell: usize) -> Cell {
         self.post[cell]
     }
@@ -92,9 +76,6 @@ impl<P: Physics> Host for SurfaceRun<P> {
     }
     fn put(&mut self, cell: usize, i: usize, value: f64) {
         self.post[cell][i] = value;
-    }
-    fn arrived(&self, cell: usize) -> Cell {
-        self.f[cell]
     }
     fn cover(&mut self, cell: usize) {
         self.kinds[cell] = Kind::Solid;
@@ -127,9 +108,6 @@ impl<P: Physics> Host for SurfaceRun<P> {
     }
     fn take_parked(&mut self, cell: usize) -> f64 {
         self.parked.remove(&(cell as u32)).unwrap_or(0.0)
-    }
-    fn gain(&mut self, cell: usize, mass: f64) {
-        self.mass[cell] += mass;
     }
     fn book(&mut self, mass: f64, momentum: &[f64; 3]) {
         self.books.mass_from_grains.add(mass);
