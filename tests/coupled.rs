@@ -142,7 +142,7 @@ fn plan_prints_grains_and_size_classes() {
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     for part in [
         "600, 600 of them clumps; 2400 spheres",
-        "`x_max`, `z_max` open to the fluid, a wall without friction to grains",
+        "`x_max`, `z_max` open: fluid and grains that pass leave",
         "thresholds 40 and 450",
         "4 cells at ",
         " times the cost; ",
@@ -259,4 +259,36 @@ fn a_guard_of_the_grains_stops_a_run_by_name() {
     }
     let summary = Summary::read(&out.join("summary.json")).expect("a summary");
     assert!(summary.stopped.is_some() && summary.grains.is_some());
+}
+
+/// A grain thrown out through the open top is gone and booked; the one that stays keeps its number.
+#[test]
+fn grains_that_pass_open_faces_leave() {
+    let out = folder("leave");
+    let scene = serde_json::json!({
+        "domain": { "size_m": [0.05, 0.04, 0.05], "spacing_m": 0.0025, "boundaries": {
+            "x_min": "no_slip", "x_max": "no_slip", "y_min": "no_slip", "y_max": "no_slip", "z_min": "no_slip", "z_max": "open" } },
+        "gravity": { "magnitude_m_per_s2": 9.81, "direction": [0, 0, -1] },
+        "fluid": { "density_kg_per_m3": 1000.0, "rheology": { "newtonian": { "viscosity_pa_s": 0.5 } },
+            "initial": { "fill_level": { "height_m": 0.02 } } },
+        "grains": {
+            "materials": [ { "name": "stone", "density_kg_per_m3": 2500.0, "young_modulus_pa": 1e6, "poisson_ratio": 0.3 } ],
+            "contact": { "law": { "tsuji": { "restitution": 0.3 } }, "friction": 0.3 },
+            "sets": [
+                { "name": "thrown", "place": { "list": [ { "position_m": [0.0125, 0.02, 0.04], "radius_m": 0.005 } ] },
+                  "velocity_m_per_s": [0.0, 0.0, 1.5] },
+                { "name": "lying", "place": { "list": [ { "position_m": [0.035, 0.02, 0.007], "radius_m": 0.006 } ] } } ] },
+        "stop": { "end_time_s": 0.05 }
+    });
+    let path = out.join("leave.json");
+    std::fs::write(&path, scene.to_string()).expect("a written scene");
+    let summary = run(&path, &out, &[]);
+    let grains = summary.grains.as_ref().expect("books of the grains");
+    assert_eq!((grains.grains, grains.left), (1, 1));
+    let mass = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.005f64 * 0.005 * 0.005;
+    assert!((grains.left_kg / mass - 1.0).abs() < 1e-12, "{}", grains.left_kg);
+    let table = std::fs::read_to_string(out.join("grains_final_lying.csv")).expect("a table");
+    assert_eq!(table.lines().filter(|line| !line.starts_with('#')).count(), 2, "{table}");
+    let gone = std::fs::read_to_string(out.join("grains_final_thrown.csv")).expect("a table");
+    assert_eq!(gone.lines().filter(|line| !line.starts_with('#')).count(), 1, "{gone}");
 }

@@ -104,6 +104,7 @@ impl Collision for CollisionChoice {
     fn has_cubic_equilibrium(&self) -> bool {
         matches!(self, Self::CentralMoment(_) | Self::Regularised)
     }
+    #[inline(always)]
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
         for_each_collision!(self, operator => operator.odd_departure(h, m))
     }

@@ -84,8 +84,7 @@ impl Immersed {
         };
         let mut returned = Returned { values: Vec::with_capacity(own.open.len()), ..Returned::default() };
         let mut links = [0.0; 6];
-        let mut volumes = self.volumes(host, own, &w);
-        volumes.surplus += self.settlement(grain, &w) * volumes.per_interface;
+        let volumes = self.volumes(host, own, &w, self.settlement(grain, &w));
         for (open, ideal) in own.open.iter().zip(&volumes.ideal) {
             self.close(host, open, &w, (&volumes, *ideal), &mut links, &mut returned);
         }
@@ -152,15 +151,20 @@ impl Immersed {
     /// cancel, so that those of all links but the blocked ones tell what is missing. And a link to a liquid cell
     /// returns all of its mass even where the other end is only partly wet: the interface cells around take the rest
     /// back, or a body that sinks through the surface would push half a layer of cells too much.
-    fn volumes(&self, host: &dyn Host, own: &Gathered, w: &[f64; 6]) -> Volumes {
+    ///
+    /// A grain that is wedged in may have one open link for fifty blocked ones. No link takes more than the fastest
+    /// part of the surface displaces there, or it would be a jet; what is left stays in the grain's debt.
+    fn volumes(&self, host: &dyn Host, own: &Gathered, w: &[f64; 6], settled: f64) -> Volumes {
         let mut volumes = Volumes { ideal: Vec::with_capacity(own.open.len()), ..Volumes::default() };
         let (mut liquid, mut interface, mut excess, mut all, mut surplus) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        let mut fastest = 0.0_f64;
         for link in &own.open {
             let out = usize::from(link.link.out);
             let (_, straight) = self.moving(host, (&link.middle, out), link.rho, w);
             let ideal = straight / link.rho;
             volumes.ideal.push(ideal);
             all += ideal;
+            fastest = fastest.max(ideal.abs() / W[out]);
             if link.interface {
                 interface += W[out];
                 continue;
@@ -180,12 +184,11 @@ impl Immersed {
             all = 0.0;
         }
         if liquid > 0.0 {
-            volumes.leak = (excess + all) / liquid;
-            volumes.blocked = all / liquid;
+            volumes.blocked = (all / liquid).clamp(-fastest, fastest);
+            volumes.leak = (excess / liquid).clamp(-fastest, fastest) + volumes.blocked;
         }
         if interface > 0.0 {
-            volumes.per_interface = 1.0 / interface;
-            volumes.surplus = -surplus * volumes.per_interface;
+            volumes.surplus = ((settled - surplus) / interface).clamp(-fastest, fastest);
         }
         volumes
     }
@@ -209,6 +212,4 @@ struct Volumes {
     blocked: f64,
     /// What links to interface get besides, per unit of weight.
     surplus: f64,
-    /// 1 over the weight of links to interface; 0 without any.
-    per_interface: f64,
 }

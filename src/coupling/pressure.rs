@@ -14,6 +14,8 @@ pub struct Samples {
     /// Σ (ρ − 1) and Σ r (ρ − 1).
     value: f64,
     moment: L3,
+    /// Least and largest ρ − 1.
+    range: [f64; 2],
 }
 
 /// ρ − 1 ≈ mean + slope · r, r from the grain's centre.
@@ -21,12 +23,22 @@ pub struct Samples {
 pub struct Fit {
     mean: f64,
     slope: L3,
+    /// Values it may take.
+    range: [f64; 2],
 }
+
+/// How far beyond what was found around a grain the pressure may be continued, as a share of its range: a gap lies at
+/// most half a cell below the lowest cell beside it, a tenth of the height of a grain of five cells.
+const BEYOND: f64 = 0.25;
 
 impl Samples {
     /// Adds a cell at `r` from the centre.
     #[inline]
     pub fn add(&mut self, r: &L3, excess: f64) {
+        self.range = match self.count {
+            0.0 => [excess; 2],
+            _ => [self.range[0].min(excess), self.range[1].max(excess)],
+        };
         self.count += 1.0;
         self.value += excess;
         for a in 0..3 {
@@ -59,14 +71,16 @@ impl Samples {
             z, xz, yz, zz,
         );
         let right = Vector4::new(self.value, self.moment[0], self.moment[1], self.moment[2]);
-        let plain = Fit { mean: self.value / self.count, slope: [0.0; 3] };
+        let [low, high] = self.range;
+        let range = [low - BEYOND * (high - low), high + BEYOND * (high - low)];
+        let plain = Fit { mean: self.value / self.count, slope: [0.0; 3], range };
         // Cells on all sides of a surface: each principal spread is a good part of the largest.
         let spread = (xx / self.count).min(yy / self.count).min(zz / self.count);
         if self.count < 8.0 || spread < 0.05 {
             return Some(plain);
         }
         let solved = matrix.cholesky().map(|factors| factors.solve(&right));
-        Some(solved.map_or(plain, |s| Fit { mean: s[0], slope: [s[1], s[2], s[3]] }))
+        Some(solved.map_or(plain, |s| Fit { mean: s[0], slope: [s[1], s[2], s[3]], range }))
     }
 }
 
@@ -75,7 +89,15 @@ impl Fit {
     #[inline]
     #[must_use]
     pub fn at(&self, r: &L3) -> f64 {
-        self.mean + (self.slope[0] * r[0] + self.slope[1] * r[1] + self.slope[2] * r[2])
+        let value = self.mean + (self.slope[0] * r[0] + self.slope[1] * r[1] + self.slope[2] * r[2]);
+        // Not `clamp`: a fluid that has blown up must reach the guard, and not a panic here.
+        if value < self.range[0] {
+            self.range[0]
+        } else if value > self.range[1] {
+            self.range[1]
+        } else {
+            value
+        }
     }
 }
 

@@ -108,6 +108,11 @@ pub struct SurfaceSummary {
 pub struct CoupledSummary {
     /// Free grains.
     pub grains: usize,
+    /// Grains that have left through open faces.
+    pub left: u64,
+    /// Their mass, kg.
+    #[serde(with = "number")]
+    pub left_kg: f64,
     /// Driven grains.
     pub driven: usize,
     /// Steps of the grains in a step of the fluid.

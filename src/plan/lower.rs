@@ -7,8 +7,8 @@ use super::scale::computed_force;
 use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::hydrostatic;
 use crate::scene::{
-    BodyForce as SceneForce, Boundary, ClampLimits, Collision, ExcessChoice, InitialPressure, Measure,
-    Operator, PrecisionChoice, Probe, RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice,
+    BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Measure, Operator,
+    PrecisionChoice, Probe, RefillChoice, Rheology, Scene, SurfaceGravity, SurfaceRules, WallChoice,
     YieldChoice,
 };
 use crate::solver::setup::{
@@ -39,7 +39,7 @@ pub fn lower(scene: &Scene, units: &Units, mut cells: Cells) -> Setup {
     setup.fluid_of_cell = cells.fluid_of_cell;
     setup.solid_motion = solid_motion(scene, units);
     setup.yielding = yield_treatment(&scene.numerics.yield_treatment, units);
-    setup.collision = collision(&scene.numerics.collision);
+    setup.collision = collision(scene);
     setup.wall_rule = match scene.numerics.wall_rule {
         WallChoice::HalfWay => WallRule::HalfWay,
         WallChoice::ViscosityIndependent => WallRule::ViscosityIndependent,
@@ -100,19 +100,35 @@ fn solid_motion(scene: &Scene, units: &Units) -> Vec<SolidMotion> {
 
 /// The collision operator with defaults filled in.
 #[must_use]
-pub fn collision(choice: &Collision) -> CollisionChoice {
-    let default = OddRate::default();
+pub fn collision(scene: &Scene) -> CollisionChoice {
+    let choice = &scene.numerics.collision;
+    let operator = operator(scene);
+    let among_grains = scene.grains.is_some() && operator == Operator::CentralMoment;
+    let default = if among_grains { OddRate::AMONG_GRAINS } else { OddRate::STANDARD };
     let odd = OddRate {
         magic: choice.magic.unwrap_or(default.magic),
         floor: choice.floor.unwrap_or(default.floor),
         lowered_below: choice.lowered_below.unwrap_or(default.lowered_below),
     };
-    match choice.operator {
+    match operator {
         Operator::Bgk => CollisionChoice::Bgk,
         Operator::Trt => CollisionChoice::Trt(odd),
         Operator::CentralMoment => CollisionChoice::CentralMoment(odd),
         Operator::Regularised => CollisionChoice::Regularised,
     }
+}
+
+/// The operator that is asked for; by default the one that suits the fluid.
+///
+/// In a plug only central moments keep the stress of an unyielded cell honest \[K3\]. Around grains in a Newtonian fluid
+/// two relaxation times do better: the drag does not depend on the viscosity, and fast grains stay stable.
+#[must_use]
+pub fn operator(scene: &Scene) -> Operator {
+    let mut laws =
+        std::iter::once(&scene.fluid.rheology).chain(scene.layers.iter().map(|layer| &layer.rheology));
+    let newtonian = laws.all(|law| matches!(law, Rheology::Newtonian { .. }));
+    let default = if scene.grains.is_some() && newtonian { Operator::Trt } else { Operator::CentralMoment };
+    scene.numerics.collision.operator.unwrap_or(default)
 }
 
 /// The yield treatment with its limits as relaxation times.

@@ -1,10 +1,11 @@
 //! Which flow of the table of work and precision a scene is nearest to.
 
 use super::cells::Cells;
+use super::lower::operator;
 use super::numbers::Numbers;
 use super::scale::{closed_axes, extreme_forces, total_force};
 use crate::scene::{
-    BodyForce, Boundary, InitialVelocity, Numerics, Operator as SceneOperator, Rheology, Scene, YieldChoice,
+    BodyForce, Boundary, InitialVelocity, Operator as SceneOperator, Rheology, Scene, YieldChoice,
 };
 use crate::solver::setup::{Setup, WallRule};
 use crate::verify::work::{Case, Operator, Scheme, Walls};
@@ -172,10 +173,10 @@ fn wave(
 }
 
 /// The scheme of a scene in the table; `None` where it has none like it.
-pub(super) fn scheme_of(numerics: &Numerics, setup: &Setup, case: Case) -> Option<Scheme> {
+pub(super) fn scheme_of(scene: &Scene, setup: &Setup, case: Case) -> Option<Scheme> {
     let yields =
         !matches!(case, Case::ChannelNewtonian | Case::Vortex | Case::FilmNewtonian | Case::DamBreak);
-    let operator = match (&numerics.yield_treatment, numerics.collision.operator) {
+    let operator = match (&scene.numerics.yield_treatment, operator(scene)) {
         (YieldChoice::LaggedClamped(_), SceneOperator::Bgk) if yields => Operator::LaggedClamp,
         (YieldChoice::Exact, SceneOperator::Bgk) if !yields => Operator::Bgk,
         (YieldChoice::Exact, SceneOperator::CentralMoment) => Operator::CentralMoment,

@@ -172,7 +172,7 @@ fn covered(
     (case, along, differences): (Case, f64, Vec<String>),
 ) -> Option<Covered> {
     let numbers = &plan.numbers;
-    let expected = scheme_of(&scene.numerics, &plan.setup, case)
+    let expected = scheme_of(scene, &plan.setup, case)
         .and_then(|scheme| predicted(work, case, scheme, numbers.tau_plastic, along));
     let (choice, reached) = match recommend(work, case, target.share()) {
         Advice::Reached(choice) => (choice, true),

@@ -1,6 +1,6 @@
 //! Running a planned scene without fluid into a folder.
 
-mod leave;
+pub(crate) mod leave;
 pub(crate) mod pictures;
 pub(crate) mod probes;
 pub(crate) mod stop;

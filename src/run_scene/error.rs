@@ -56,11 +56,17 @@ pub struct StopReport {
 }
 
 impl StopReport {
-    /// `failure`: what the discrete element method says.
-    pub(super) fn new(plan: &Plan, scene: &Scene, stopped: &Stopped, failure: Option<&DemError>) -> Self {
+    /// `failure`: what the discrete element method says. `number`: number at time 0 of a grain.
+    pub(super) fn new(
+        plan: &Plan,
+        scene: &Scene,
+        stopped: &Stopped,
+        failure: Option<&DemError>,
+        number: &dyn Fn(u32) -> u32,
+    ) -> Self {
         let units = &plan.units;
         let name = |grain: u32| match &plan.grains {
-            Some(coupled) => coupled.grains.name(grain as usize),
+            Some(coupled) => coupled.grains.name(number(grain) as usize),
             None => format!("grain {grain}"),
         };
         let found = match stopped.what {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::columns::Upright;
 use crate::coupling::Immersed;
-use crate::dem::V3;
+use crate::dem::{Setup as GrainSetup, V3, keep_marked};
 use crate::output::OutputError;
 use crate::output::csv::Series;
 use crate::output::summary::CoupledSummary;
@@ -12,7 +12,7 @@ use crate::plan::coupled::Coupled;
 use crate::run_grains::pictures::series_plots;
 use crate::run_grains::probes::{Sampler, columns, probes};
 use crate::run_grains::writer::{Files, groups};
-use crate::run_grains::{View, fingerprint};
+use crate::run_grains::{View, fingerprint, leave};
 use crate::scene::dry::GrainMeasure;
 use crate::solver::run::{Fields, Run};
 use crate::solver::setup::{Face, Setup};
@@ -47,7 +47,12 @@ pub(super) struct GrainPart<'a> {
     units: Units,
     files: Files<'a>,
     sampler: Option<Sampler>,
+    /// The set-up of the grains still there.
+    setup: GrainSetup,
+    /// Number at time 0 of each grain still there.
     ids: Vec<u32>,
+    /// Number, mass (kg) and energy (J) of the grains that have left.
+    left: (u64, f64, f64),
     /// Energy balance at time 0, J.
     start: f64,
     /// Of every solid.
@@ -65,7 +70,9 @@ impl<'a> GrainPart<'a> {
             units,
             files: Files::new(&coupled.scene, &coupled.grains, folder),
             sampler: None,
+            setup: coupled.grains.setup.clone(),
             ids: (0..count).collect(),
+            left: (0, 0.0, 0.0),
             start: 0.0,
             contacts: vec![Contacts::default(); coupled.grains.walls.solids.len()],
             first,
@@ -80,9 +87,9 @@ impl<'a> GrainPart<'a> {
     fn view<'b>(&'b self, grains: &'b Immersed, time: f64) -> View<'b> {
         View {
             dem: grains.dem(),
-            setup: &self.coupled.grains.setup,
+            setup: &self.setup,
             ids: &self.ids,
-            left: (0, 0.0, 0.0),
+            left: self.left,
             start: self.start,
             time,
         }
@@ -94,6 +101,31 @@ impl<'a> GrainPart<'a> {
         self.start = grains.dem().energies().balance();
         let sampler = Sampler::new(&self.coupled.scene, &self.coupled.grains, &self.view(grains, 0.0));
         self.sampler = Some(sampler);
+    }
+
+    /// Whether grains can leave.
+    pub fn has_open_faces(&self) -> bool {
+        self.coupled.grains.open.iter().flatten().any(|open| *open)
+    }
+
+    /// Takes out the free grains that are wholly beyond an open face.
+    pub fn take_out(&mut self, run: &mut dyn Run) {
+        let dem = run.grains().map(Immersed::dem);
+        let found = dem.and_then(|dem| {
+            let stays = leave::leaving(dem, &self.setup, &self.coupled.scene, &self.coupled.grains)?;
+            Some((leave::count(dem, &stays), dem.energies().balance(), stays))
+        });
+        let Some(((number, mass), before, stays)) = found else { return };
+        run.leave(&stays);
+        keep_marked(&mut self.setup.grains, &stays);
+        keep_marked(&mut self.ids, &stays);
+        let after = run.grains().map_or(0.0, |grains| grains.dem().energies().balance());
+        self.left = (self.left.0 + number, self.left.1 + mass, self.left.2 + (before - after));
+    }
+
+    /// Number at time 0 of a grain.
+    pub fn number(&self, grain: u32) -> u32 {
+        self.ids.get(grain as usize).copied().unwrap_or(grain)
     }
 
     /// Adds up the contact forces of a step.
@@ -152,9 +184,9 @@ impl<'a> GrainPart<'a> {
         // The files are borrowed apart from what the view borrows.
         let view = View {
             dem: grains.dem(),
-            setup: &self.coupled.grains.setup,
+            setup: &self.setup,
             ids: &self.ids,
-            left: (0, 0.0, 0.0),
+            left: self.left,
             start: self.start,
             time,
         };
@@ -191,6 +223,8 @@ impl<'a> GrainPart<'a> {
         let own = grains.dem().ledger();
         Some(CoupledSummary {
             grains: view.free().count(),
+            left: self.left.0,
+            left_kg: self.left.1,
             driven: grains.dem().bodies().driven.len(),
             sub_steps: grains.config().sub_steps,
             mass_kg: own.mass,

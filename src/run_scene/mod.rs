@@ -22,6 +22,7 @@ use crate::solver::plain::Plain;
 use crate::solver::run::{Backend, Fields, Run, StartError};
 use crate::solver::setup::{Precision, Setup};
 use crate::solver::steady::residual;
+use grains::GrainPart;
 use schedule::Schedule;
 use writer::{Writer, summary};
 
@@ -94,6 +95,9 @@ pub fn run(scene: &Scene, plan: &Plan, options: &Options) -> Result<Finished, Ru
     progress.finish();
     result
 }
+
+/// Steps between two looks for grains that have left; what is beyond a face has no fluid around it.
+const STEPS_PER_LOOK: u64 = 50;
 
 /// Starts a run, on the plain backend where the one asked for does not have grains; and the name of the one it is.
 fn start(backend: &dyn Backend, setup: &Setup) -> Result<(Box<dyn Run>, &'static str), StartError> {
@@ -169,25 +173,33 @@ impl Driver<'_> {
     fn advance(&mut self, run: &mut dyn Run, due: u64, writer: &mut Writer) -> Result<(), RunError> {
         let every_step = writer.every_step();
         let piece = if every_step { 1 } else { (UPDATES_PER_MOVE / run.fluid_cells().max(1)).max(1) };
+        let opens = writer.grains.as_ref().is_some_and(GrainPart::has_open_faces);
         while run.step() < due {
             let (from, cells) = (run.step(), run.fluid_cells());
+            let to_look = if opens { STEPS_PER_LOOK - from % STEPS_PER_LOOK } else { piece };
             let clock = Instant::now();
-            let result = run.advance(piece.min(due - from));
+            let result = run.advance(piece.min(to_look).min(due - from));
             self.stepping += clock.elapsed().as_secs_f64();
             // The mean of before and after.
             self.updates += 0.5 * (cells + run.fluid_cells()) as f64 * (run.step() - from) as f64;
             self.progress.set(run.step());
             if let Err(stopped) = result {
                 let failure = run.grains().and_then(Immersed::failure);
-                let report = StopReport::new(self.plan, self.scene, &stopped, failure);
+                let number = |grain| writer.grains.as_ref().map_or(grain, |grains| grains.number(grain));
+                let report = StopReport::new(self.plan, self.scene, &stopped, failure, &number);
                 let finished = self.finished(run);
                 writer.finish_series()?;
                 let fields = run.fields();
                 self.summary(run, &fields, writer, &finished, Some(report.to_string()))?;
                 return Err(RunError::Stopped(Box::new(report)));
             }
-            if let Some(grains) = writer.grains.as_mut().filter(|_| every_step) {
-                grains.sample(run);
+            if let Some(grains) = &mut writer.grains {
+                if every_step {
+                    grains.sample(run);
+                }
+                if opens && run.step() % STEPS_PER_LOOK == 0 {
+                    grains.take_out(run);
+                }
             }
         }
         Ok(())

@@ -8,7 +8,7 @@ use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::dry::{DryDomain, DryScene, GrainOutput, GrainSolid, GrainStop};
-use super::{Boundaries, Boundary, Scene};
+use super::{Boundary, Scene};
 
 /// How grains and fluid act on each other; only together with `fluid`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -123,21 +123,11 @@ impl<'de> Deserialize<'de> for LubricationChoice {
 }
 
 impl Scene {
-    /// The scene as its grains see it; `None` without grains. Open faces are walls without friction to them.
+    /// The scene as its grains see it; `None` without grains.
     #[must_use]
     pub fn as_dry(&self) -> Option<DryScene> {
         let mut grains = self.grains.clone()?;
         grains.coupling = None;
-        let b = &self.domain.boundaries;
-        let face = |face: Boundary| if face == Boundary::Open { Boundary::FreeSlip } else { face };
-        let boundaries = Boundaries {
-            x_min: face(b.x_min),
-            x_max: face(b.x_max),
-            y_min: face(b.y_min),
-            y_max: face(b.y_max),
-            z_min: face(b.z_min),
-            z_max: face(b.z_max),
-        };
         let solid = |solid: &super::Solid| GrainSolid {
             name: solid.name.clone(),
             shape: Some(solid.shape.clone()),
@@ -152,7 +142,11 @@ impl Scene {
             schema: None,
             title: self.title.clone(),
             description: None,
-            domain: DryDomain { size_m: self.domain.size_m, boundaries, spacing_m: None },
+            domain: DryDomain {
+                size_m: self.domain.size_m,
+                boundaries: self.domain.boundaries.clone(),
+                spacing_m: None,
+            },
             gravity: self.gravity,
             grains,
             solids: self.solids.iter().map(solid).collect(),

@@ -118,22 +118,24 @@ pub enum ExcessChoice {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Collision {
-    /// Which operator.
-    #[serde(default)]
-    pub operator: Operator,
+    /// Which operator; `central_moment` when not given, `trt` when not given with grains in a Newtonian fluid: only then
+    /// the drag of a grain does not depend on the viscosity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub operator: Option<Operator>,
     /// Λ = (τ⁺ − ½)(τ⁻ − ½), no unit; 0.1875 when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub magic: Option<f64>,
     /// θ, least τ⁻ − ½, no unit; 0.05 when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub floor: Option<f64>,
-    /// Below this τ⁺ − ½ the product Λ is given up for stability; 0.05 when not given.
+    /// Below this τ⁺ − ½ the product Λ is given up for stability; 0.05 when not given, 0.15 with grains
+    /// and `central_moment`, whose odd moments would grow along a surface that moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lowered_below: Option<f64>,
 }
 
 /// The four operators.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Operator {
     /// One relaxation time.
@@ -141,7 +143,6 @@ pub enum Operator {
     /// Two relaxation times.
     Trt,
     /// Central moments about the co-moving state.
-    #[default]
     CentralMoment,
     /// Recursive-regularised.
     Regularised,

@@ -72,7 +72,7 @@ fn time_step(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {
 
 fn collision(at: &Checker, collision: &Collision) -> Result<(), SceneError> {
     let path = "numerics.collision";
-    let one_rate = matches!(collision.operator, Operator::Bgk | Operator::Regularised);
+    let one_rate = matches!(collision.operator, Some(Operator::Bgk | Operator::Regularised));
     let given =
         [("magic", collision.magic), ("floor", collision.floor), ("lowered_below", collision.lowered_below)];
     for (key, value) in given {

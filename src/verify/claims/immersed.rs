@@ -95,7 +95,7 @@ pub fn numerics(what: &'static str, detail: impl std::fmt::Display) -> VerifyErr
 ///
 /// # Errors
 /// Outside its range.
-pub fn exact(value: Result<f64, ExactError>) -> Result<f64, VerifyError> {
+pub fn exact<T>(value: Result<T, ExactError>) -> Result<T, VerifyError> {
     value.map_err(|error| numerics("reference solution", error))
 }
 

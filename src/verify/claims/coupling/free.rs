@@ -176,7 +176,7 @@ pub const NEUTRAL_IN_POOL: Claim = Claim {
 };
 
 /// Moving walls normal to y around one grain: shear rate 2 `speed`/height.
-fn sheared(grain: Grain, clumps: Vec<Clump>, cells: usize, speed: f64, mutant: Wrong) -> Setup {
+pub fn sheared(grain: Grain, clumps: Vec<Clump>, cells: usize, speed: f64, mutant: Wrong) -> Setup {
     let mut suspension =
         Suspension { mutant, ..plain_suspension(grains(1.0, vec![grain]), GrainWall::CentralLinear) };
     suspension.dem.clumps = clumps;
@@ -205,7 +205,7 @@ fn spin(backend: &dyn Backend, setup: &Setup, rate: f64) -> Result<f64, VerifyEr
 }
 
 /// Cells across and a centre at a place, for a body of this radius: walls ten radii apart.
-fn middle(radius: f64, place: [f64; 3]) -> (usize, [f64; 3]) {
+pub fn middle(radius: f64, place: [f64; 3]) -> (usize, [f64; 3]) {
     let cells = (10.0 * radius).round() as usize;
     (cells, place.map(|d| (cells / 2) as f64 + d))
 }

@@ -15,7 +15,8 @@ use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
 const DIAMETER: f64 = 9.6;
 const VELOCITY: [f64; 3] = [0.02, 0.011, 0.007];
 
-fn norm(v: &[f64]) -> f64 {
+/// Length of a vector.
+pub fn norm(v: &[f64]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 

@@ -17,11 +17,15 @@ use crate::verify::exact::suspension::settling::{
 };
 use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
 
-const RADIUS: f64 = 2.5;
+/// Cells.
+pub const RADIUS: f64 = 2.5;
 const MU: f64 = 0.5;
 
 /// Centres of `count` spheres at random in a periodic cube, one after the other, none overlapping.
-fn scatter(count: usize, edge: f64, seed: u64) -> Result<Vec<[f64; 3]>, VerifyError> {
+///
+/// # Errors
+/// `Numerics` if there is no room.
+pub fn scatter(count: usize, edge: f64, seed: u64) -> Result<Vec<[f64; 3]>, VerifyError> {
     let mut random = Random::new(seed);
     let mut placed: Vec<[f64; 3]> = Vec::new();
     let apart = |a: &[f64; 3], b: &[f64; 3]| -> f64 {

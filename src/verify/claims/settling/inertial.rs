@@ -1,0 +1,116 @@
+//! Random boxes at finite Reynolds number, averaged over their fall.
+
+use std::f64::consts::PI;
+
+use super::arrays::TRT;
+use super::random::{RADIUS, scatter};
+use crate::coupling::{GrainWall, Suspension};
+use crate::dem::V3;
+use crate::output::plot::{Axis, Plot, Series};
+use crate::rheology::Law;
+use crate::solver::run::Backend;
+use crate::solver::setup::BodyForce;
+use crate::verify::claim::VerifyError;
+use crate::verify::claims::immersed::{UNITS, exact, grains, immersed, periodic, sphere, volume};
+use crate::verify::exact::suspension::settling::{
+    garside_al_dibouni_exponent, richardson_zaki, richardson_zaki_exponent,
+};
+use crate::verify::exact::suspension::single_sphere::DragCurve;
+use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
+
+/// Of one sphere that falls alone.
+const REYNOLDS: f64 = 10.0;
+/// τ = 0.6: one sphere falls at 0.067 cells per step.
+const MU: f64 = 1.0 / 30.0;
+/// Density of the spheres over that of the fluid.
+const DENSITY: f64 = 2.0;
+/// Edges of the box that the spheres fall, before and while their speed is averaged.
+const WAY: [f64; 2] = [1.0, 3.0];
+
+/// Mean speed over that of one sphere by the standard drag curve, without net volume flux, averaged over a fall.
+fn fall(backend: &dyn Backend, (c, count): (f64, usize), seed: u64) -> Result<f64, VerifyError> {
+    let n = libm::cbrt(count as f64 * volume(RADIUS) / c).round();
+    let balls = scatter(count, n, seed)?.into_iter().map(|x| sphere(RADIUS, x)).collect();
+    let alone = REYNOLDS * MU / (2.0 * RADIUS);
+    let drag = 6.0 * PI * MU * RADIUS * alone * exact(DragCurve::SchillerNaumann.ratio(REYNOLDS))?;
+    let gravity = drag / ((DENSITY - 1.0) * volume(RADIUS));
+    let mut spheres = grains(DENSITY, balls);
+    spheres.gravity = V3::new(0.0, 0.0, -gravity);
+    let suspension = Suspension {
+        wall: GrainWall::CentralLinear,
+        balanced: [false, false, true],
+        sub_steps: 4,
+        ..Suspension::new(spheres, UNITS)
+    };
+    let mut setup = periodic([n as usize; 3], suspension);
+    setup.fluids = vec![Law::Newtonian { mu: MU }];
+    setup.collision = TRT;
+    setup.force = BodyForce::Constant([0.0, 0.0, -gravity]);
+    let mut run = backend.start(&setup)?;
+    let expected = alone * exact(richardson_zaki(c, exact(richardson_zaki_exponent(REYNOLDS))?))?;
+    let [before, during] = WAY.map(|edges| (edges * n / expected).ceil() as u64);
+    run.advance(before)?;
+    let looks = 200;
+    let mut sum = 0.0;
+    for _ in 0..looks {
+        run.advance(during.div_ceil(looks))?;
+        let grains = immersed(run.as_ref())?;
+        let fall: f64 = (0..count).map(|i| grains.motion(i)[2]).sum();
+        let flux = (run.totals().momentum[2] + volume(RADIUS) * fall) / (n * n * n);
+        sum += flux - fall / count as f64;
+    }
+    Ok(sum / looks as f64 / alone)
+}
+
+/// Finite Reynolds number.
+pub const INERTIAL: Exhibit = Exhibit {
+    id: "random-boxes-with-inertia",
+    caption: "Settling of random boxes at a Reynolds number of 10 (of one sphere that falls alone), averaged over a fall of three edges of \
+              the box, beside the law of Richardson and Zaki with its exponent at that Reynolds number.",
+    timed: false,
+    run: inertial,
+};
+
+fn inertial(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
+    let (boxes, count) = if full { (20, 27) } else { (2, 8) };
+    let fractions: &[f64] = if full { &[0.1, 0.2, 0.3] } else { &[0.2] };
+    let exponents =
+        [exact(richardson_zaki_exponent(REYNOLDS))?, exact(garside_al_dibouni_exponent(REYNOLDS))?];
+    let mut table = Table::new(
+        format!("u/u0, {boxes} boxes of {count} spheres, R = 2.5 cells, Re = 10, density ratio 2"),
+        &["c", "mean", "standard error", "Richardson-Zaki", "Garside and Al-Dibouni", "exponent of the mean"],
+    );
+    let mut points = Vec::new();
+    for &c in fractions {
+        let n = libm::cbrt(count as f64 * volume(RADIUS) / c).round();
+        let fraction = count as f64 * volume(RADIUS) / (n * n * n);
+        let all = (1..=boxes)
+            .map(|seed| fall(backend, (c, count), seed))
+            .collect::<Result<Vec<f64>, VerifyError>>()?;
+        let mean = all.iter().sum::<f64>() / boxes as f64;
+        let variance = all.iter().map(|u| (u - mean) * (u - mean)).sum::<f64>() / (boxes as f64 - 1.0);
+        points.push([fraction, mean]);
+        table.push(vec![
+            fraction.into(),
+            mean.into(),
+            (variance / boxes as f64).sqrt().into(),
+            exact(richardson_zaki(fraction, exponents[0]))?.into(),
+            exact(richardson_zaki(fraction, exponents[1]))?.into(),
+            (libm::log(mean) / libm::log(1.0 - fraction)).into(),
+        ]);
+    }
+    let curve = |n: f64| (0..=35).map(|i| 0.01 * f64::from(i)).map(|c| [c, libm::pow(1.0 - c, n)]).collect();
+    let plot = Plot::new("Settling at Re = 10", Axis::linear("c", ""), Axis::linear("u/u0", ""))
+        .with(Series::markers("random boxes", points))
+        .with(Series::reference(format!("(1 - c)^{:.2}, Richardson-Zaki", exponents[0]), curve(exponents[0])))
+        .with(Series::reference(
+            format!("(1 - c)^{:.2}, Garside and Al-Dibouni", exponents[1]),
+            curve(exponents[1]),
+        ));
+    let notes = vec![
+        "u0 is that of the drag curve of Schiller and Naumann; no correction for the size of the box, whose wakes at this \
+         Reynolds number reach across it."
+            .to_owned(),
+    ];
+    Ok(ExhibitData { tables: vec![table], plots: vec![plot], notes })
+}
