@@ -326,7 +326,7 @@ fn with_grains(gas: bool, wall: GrainWall, law: Law, seed: u64) -> Setup {
     let sphere = |x: f64| dem::Sphere { centre: V3::new(x, 0.0, 0.0), radius: 1.0 };
     let pair = dem::Clump::new("pair", &[sphere(-0.6), sphere(0.6)]);
     dem.clumps.push(pair.unwrap_or_else(|error| panic!("{error}")));
-    let places = [[5.0, 5.5, 6.0], [14.0, 6.0, 8.5], [8.0, 13.5, 15.0], [16.5, 13.0, 6.5], [18.5, 7.0, 19.0]];
+    let places = [[5.0, 5.5, 6.0], [14.0, 6.0, 8.5], [8.0, 13.5, 15.0], [16.5, 16.9, 6.5], [18.5, 7.0, 19.0]];
     for (k, place) in places.into_iter().enumerate() {
         let off = |a: usize| 0.4 * noise(7 * k + a, seed);
         let centre = V3::from(place) + V3::new(off(0), off(1), off(2));

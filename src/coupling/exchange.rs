@@ -185,7 +185,7 @@ impl Immersed {
         }
         if liquid > 0.0 {
             volumes.blocked = (all / liquid).clamp(-fastest, fastest);
-            volumes.leak = (excess / liquid).clamp(-fastest, fastest) + volumes.blocked;
+            volumes.leak = excess / liquid + volumes.blocked;
         }
         if interface > 0.0 {
             volumes.surplus = ((settled - surplus) / interface).clamp(-fastest, fastest);

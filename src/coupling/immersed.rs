@@ -3,9 +3,9 @@
 use super::L3;
 use super::config::Suspension;
 use super::coverage::Coverage;
+use super::gaps::Gaps;
 use super::host::Host;
 use super::link::{Ball, Box3};
-use super::lubrication::Gaps;
 use super::report::CouplingBooks;
 use crate::dem::bodies::SPHERE;
 use crate::dem::{Dem, DemError, V3};

@@ -12,7 +12,7 @@
 //! | C2 | force and torque by momentum exchange | `exchange.rs`, `held.rs` |
 //! | C3 | covering, uncovering, refill, ledger | `cover.rs`, `refill.rs` |
 //! | C4 | sub-cycling | `subcycle.rs` |
-//! | C5 | lubrication | `lubrication.rs` |
+//! | C5 | lubrication | `lubrication.rs`, `gaps.rs` |
 //! | C6 | velocity of the surface, implicit in the link friction | `predict.rs` |
 //!
 //! # A fluid step with grains
@@ -23,6 +23,7 @@ pub mod config;
 mod cover;
 mod coverage;
 mod exchange;
+mod gaps;
 mod gather;
 mod held;
 mod host;

@@ -209,6 +209,11 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                 End::Cell { direction, .. } if direction == i => continue,
                 End::Cell { number, local, direction } => {
                     let arrived = self.task.old[number as usize].get()[index::<E>(local, direction)].to_f64();
+                    if self.surface.kinds[number as usize][local] == Kind::Solid {
+                        // Behind a mirror plane and covered by a grain: booked where its surface returned it.
+                        *back = arrived;
+                        continue;
+                    }
                     (arrived, Source::Cell { cell: 0, direction: direction as u8 })
                 }
             };
