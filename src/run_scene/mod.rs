@@ -197,7 +197,7 @@ impl Driver<'_> {
                 if every_step {
                     grains.sample(run);
                 }
-                if opens && run.step() % STEPS_PER_LOOK == 0 {
+                if opens && run.step().is_multiple_of(STEPS_PER_LOOK) {
                     grains.take_out(run);
                 }
             }

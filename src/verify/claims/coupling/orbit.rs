@@ -41,7 +41,7 @@ fn half_turn(backend: &dyn Backend, radius: f64) -> Result<Sample, VerifyError> 
     let tilt = immersed(run.as_ref())?.motion(0);
     Ok(Sample::relative(radius, time, 0.5 * orbit.period())
         .with("largest deviation of the angle [rad]", off)
-        .with("spin out of the plane of shear over the shear rate", tilt[3].hypot(tilt[4]) / rate))
+        .with("spin out of the plane of shear over the shear rate", libm::hypot(tilt[3], tilt[4]) / rate))
 }
 
 /// Jeffery's orbit.
