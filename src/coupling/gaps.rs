@@ -19,7 +19,8 @@ const STIFFEST: f64 = 0.5;
 
 /// Largest share of a grain's mass, or moment of inertia, over the grains' step that all of its gaps together may
 /// reach. A clump wedged in may have ten of them: two neighbours that both do damp each other at twice this rate, and
-/// an explicit step grows beyond 2.
+/// an explicit step grows beyond 2. `plan` counts one gap when it chooses sub-steps, so that the gaps of such a clump
+/// are limited sooner than it says.
 const STIFFEST_GRAIN: f64 = 0.75;
 
 /// What meets in a gap.
