@@ -5,6 +5,7 @@ use super::link::{Ball, Blocked, Box3, Link};
 use crate::boundary::links::Source;
 use crate::lattice::{Q, opposite};
 use crate::solver::setup::Setup;
+use rayon::prelude::*;
 
 /// No grain.
 pub const NOBODY: u32 = u32::MAX;
@@ -114,24 +115,32 @@ impl Coverage {
         cells
     }
 
-    /// Looks at the grains that have moved far enough. `balls(grain)`: its spheres; `moved(grain, seen)`: how far the
+    /// Looks at the grains that have moved far enough, on the threads of the pool it is called in. `balls(grain)`: its spheres; `moved(grain, seen)`: how far the
     /// farthest of them is from where it was at the last look.
     pub fn update(
         &mut self,
         setup: &Setup,
         shape: &Box3,
-        balls: &impl Fn(usize) -> Vec<Ball>,
-        moved: &impl Fn(usize, &[L3]) -> f64,
+        balls: &(impl Fn(usize) -> Vec<Ball> + Sync),
+        moved: &(impl Fn(usize, &[L3]) -> f64 + Sync),
     ) -> Changes {
+        let found: Vec<Option<(Inside, Vec<Ball>)>> = self
+            .covers
+            .par_iter()
+            .enumerate()
+            .map(|(grain, cover)| {
+                if !cover.seen.is_empty() && moved(grain, &cover.seen) < cover.clearance {
+                    return None;
+                }
+                let balls = balls(grain);
+                Some((inside(setup, shape, &balls), balls))
+            })
+            .collect();
         let mut looked = Vec::new();
         let mut freed: Vec<(u32, u32)> = Vec::new();
-        for grain in 0..self.covers.len() {
-            let cover = &self.covers[grain];
-            if !cover.seen.is_empty() && moved(grain, &cover.seen) < cover.clearance {
-                continue;
-            }
-            let balls = balls(grain);
-            let found = inside(setup, shape, &balls);
+        for (grain, (found, balls)) in
+            found.into_iter().enumerate().filter_map(|(grain, found)| Some((grain, found?)))
+        {
             self.looks += 1;
             let cover = &mut self.covers[grain];
             cover.clearance = found.clearance;
@@ -183,12 +192,20 @@ impl Coverage {
         let stays = |list: &[(u32, u32)], cell: u32| list.binary_search_by_key(&cell, |c| c.0).is_ok();
         let truly_freed = freed.iter().copied().filter(|c| !stays(&covered, c.0)).collect();
         let truly_covered = covered.iter().copied().filter(|c| !stays(&freed, c.0)).collect();
+        let mut renewed: Vec<(usize, Vec<Ball>)> = Vec::with_capacity(looked.len() + passed_on.len());
         for (grain, found, balls) in looked {
-            self.covers[grain].cells = found.cells;
-            self.list_links(setup, shape, grain, &balls);
+            // Links follow from the cells of the grain itself and from fixed solids.
+            if self.covers[grain].cells != found.cells {
+                self.covers[grain].cells = found.cells;
+                renewed.push((grain, balls));
+            }
         }
-        for grain in passed_on {
-            self.list_links(setup, shape, grain, &balls(grain));
+        renewed.extend(passed_on.into_iter().map(|grain| (grain, balls(grain))));
+        let links: Vec<_> =
+            renewed.par_iter().map(|(grain, balls)| self.links(setup, shape, *grain, balls)).collect();
+        for ((grain, _), (links, blocked)) in renewed.iter().zip(links) {
+            let cover = &mut self.covers[*grain];
+            (cover.links, cover.blocked) = (links, blocked);
         }
         Changes { covered: truly_covered, freed: truly_freed }
     }
@@ -222,7 +239,7 @@ impl Coverage {
     }
 
     /// Links of a grain, from its cells.
-    fn list_links(&mut self, setup: &Setup, shape: &Box3, grain: usize, balls: &[Ball]) {
+    fn links(&self, setup: &Setup, shape: &Box3, grain: usize, balls: &[Ball]) -> (Vec<Link>, Vec<Blocked>) {
         let own = grain as u32;
         let (mut links, mut blocked) = (Vec::new(), Vec::new());
         // All 18 neighbours of a cell deeper than √2 are inside too.
@@ -244,7 +261,13 @@ impl Coverage {
                     Source::Cell { cell: from, direction } => {
                         if self.owner[from as usize] != own {
                             let slot = opposite(i) as u8;
-                            links.push(Link { cell: from, out: direction, slot, covered: cell });
+                            links.push(Link {
+                                cell: from,
+                                out: direction,
+                                slot,
+                                covered: cell,
+                                behind: NOBODY,
+                            });
                         }
                     }
                     Source::Wall { .. } => blocked.push(Blocked { covered: cell, inward: i as u8 }),
@@ -252,9 +275,15 @@ impl Coverage {
                 }
             }
         }
-        links.sort_unstable();
-        let cover = &mut self.covers[grain];
-        (cover.links, cover.blocked) = (links, blocked);
+        // By (cell, out, slot), which no two share.
+        links.sort_unstable_by_key(|link: &Link| {
+            u64::from(link.cell) << 16 | u64::from(link.out) << 8 | u64::from(link.slot)
+        });
+        for link in &mut links {
+            let behind = shape.straight_behind(setup, link.cell as usize, usize::from(link.out));
+            link.behind = behind.unwrap_or(NOBODY);
+        }
+        (links, blocked)
     }
 }
 
@@ -294,8 +323,16 @@ fn inside(setup: &Setup, shape: &Box3, balls: &[Ball]) -> Inside {
             for j in y.0..=y.1 {
                 let dy = j as f64 + 0.5 - ball.centre[1];
                 let rest = dy * dy + dz * dz;
+                // Beyond this no cell is inside, or nearer to the surface than 1.
+                let span2 = reach * reach - rest;
+                if span2 < 0.0 {
+                    continue;
+                }
+                let span = span2.sqrt();
+                let low = ((ball.centre[0] - span - 0.5).ceil() as i64).max(x.0);
+                let high = ((ball.centre[0] + span - 0.5).floor() as i64).min(x.1);
                 let row = setup.index([0, fold(j, 1), fold(k, 2)]);
-                for i in x.0..=x.1 {
+                for i in low..=high {
                     let dx = i as f64 + 0.5 - ball.centre[0];
                     let beyond = (dx * dx + rest) - r2;
                     let gap = beyond.abs() * scale;

@@ -2,20 +2,23 @@
 
 use super::L3;
 use super::config::{GrainWall, Mutant};
-use super::gather::{Gathered, Open};
-use super::host::Host;
-use super::immersed::{BodyLoad, Immersed};
+use super::gather::{Gathered, Open, Pressed};
+use super::host::{Host, Place};
+use super::immersed::{BodyLoad, Immersed, on_pool};
 use super::link::cross;
 use super::predict::middle;
 use crate::boundary::bounce_back::surface_velocity;
 use crate::lattice::{C, W};
 use rayon::prelude::*;
 
+/// Grains answered before what they return is put in place: it is still in the cache then.
+const TURN: usize = 256;
+
 /// What goes to the cells and to the books.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Returned {
-    /// (covered cell, direction, value).
-    pub values: Vec<(u32, u8, f64)>,
+    /// Populations of covered cells.
+    pub values: Vec<(Place, f64)>,
     /// (interface cell, mass that it gets).
     pub gained: Vec<(u32, f64)>,
     pub load: BodyLoad,
@@ -27,45 +30,83 @@ pub(super) struct Returned {
     pub momentum: L3,
 }
 
+impl Returned {
+    /// Empty, with the room it has.
+    fn start(&mut self) {
+        let (mut values, mut gained) = (std::mem::take(&mut self.values), std::mem::take(&mut self.gained));
+        values.clear();
+        gained.clear();
+        *self = Self { values, gained, ..Self::default() };
+    }
+}
+
+/// What is needed while a grain answers, for one after the other.
+#[derive(Default)]
+struct Scratch {
+    gathered: Gathered,
+    volumes: Volumes,
+}
+
 impl Immersed {
     /// Returns populations from all surfaces and finds the forces on all grains; between collision and streaming.
     pub fn exchange(&mut self, host: &mut dyn Host) {
         let force = host.setup().force.at(host.step_number());
-        let returned = {
+        let mut answers = std::mem::take(&mut self.answers);
+        answers.resize_with(TURN.min(self.grains()), Returned::default);
+        let pressed: Vec<Pressed> = {
             let (this, host) = (&*self, &*host);
-            let work = || {
-                let all = 0..this.grains();
-                let gathered: Vec<Gathered> =
-                    all.clone().into_par_iter().map(|grain| this.gather(host, grain)).collect();
-                all.into_par_iter()
-                    .map(|grain| this.answer(host, grain, &gathered, &force))
-                    .collect::<Vec<Returned>>()
-            };
-            match host.pool() {
-                Some(pool) => pool.install(work),
-                None => work(),
-            }
+            let work = || (0..this.grains()).into_par_iter().map(|grain| this.pressed(host, grain)).collect();
+            on_pool(&this.alone, host.pool(), work)
         };
-        for (grain, own) in returned.into_iter().enumerate() {
-            for &(cell, i, value) in &own.values {
-                host.put(cell as usize, usize::from(i), value);
+        for first in (0..self.grains()).step_by(TURN) {
+            let many = TURN.min(self.grains() - first);
+            let turn = &mut answers[..many];
+            {
+                let (this, host) = (&*self, &*host);
+                on_pool(&this.alone, host.pool(), || {
+                    turn.par_iter_mut().enumerate().for_each_init(
+                        Scratch::default,
+                        |scratch, (k, returned)| {
+                            this.answer(host, first + k, (&pressed, &force), scratch, returned);
+                        },
+                    );
+                });
             }
-            for &(cell, mass) in &own.gained {
-                host.add_mass(cell as usize, mass);
+            for (k, own) in turn.iter().enumerate() {
+                self.hand_over(host, first + k, own);
             }
-            host.book(own.mass, &own.momentum);
-            self.books.enter_links(&own);
-            self.loads[grain] = own.load;
-            self.owed[grain] -= own.excess;
-            self.debt[grain] -= own.mass;
         }
+        self.answers = answers;
+    }
+
+    /// Puts what a grain returns in its places, and enters it in the books.
+    fn hand_over(&mut self, host: &mut dyn Host, grain: usize, own: &Returned) {
+        for &(place, value) in &own.values {
+            host.put(place, value);
+        }
+        for &(cell, mass) in &own.gained {
+            host.add_mass(cell as usize, mass);
+        }
+        host.book(own.mass, &own.momentum);
+        self.books.enter_links(own);
+        self.loads[grain] = own.load;
+        self.owed[grain] -= own.excess;
+        self.debt[grain] -= own.mass;
     }
 
     /// Velocity of the surface, populations returned, force and torque.
-    fn answer(&self, host: &dyn Host, grain: usize, all: &[Gathered], force: &L3) -> Returned {
-        let own = &all[grain];
+    fn answer(
+        &self,
+        host: &dyn Host,
+        grain: usize,
+        (pressed, force): (&[Pressed], &L3),
+        scratch: &mut Scratch,
+        returned: &mut Returned,
+    ) {
+        let Scratch { gathered: own, volumes } = scratch;
+        self.gather(host, grain, own);
         let motion = self.motion(grain);
-        let held = self.blocked_force(host, grain, all);
+        let held = self.blocked_force(host, grain, pressed);
         let rest = self.rest_force(grain, own, force);
         let w = if self.is_driven(grain) {
             motion
@@ -82,14 +123,14 @@ impl Immersed {
             }
             middle(&own.friction, self.mass(grain), &self.inertia(grain), &motion, &other)
         };
-        let mut returned = Returned { values: Vec::with_capacity(own.open.len()), ..Returned::default() };
+        returned.start();
+        let settled = self.settlement(grain, &w);
+        self.volumes(host, (own, pressed[grain].blocked), &w, settled, volumes);
         let mut links = [0.0; 6];
-        let volumes = self.volumes(host, own, &w, self.settlement(grain, &w));
-        for (open, ideal) in own.open.iter().zip(&volumes.ideal) {
-            self.close(host, open, &w, (&volumes, *ideal), &mut links, &mut returned);
+        for (open, moved) in own.open.iter().zip(&volumes.moved) {
+            self.close(host, open, (volumes, moved), &mut links, returned);
         }
         returned.load = BodyLoad { links, held, rest, wet_links: own.open.len() as u32 };
-        returned
     }
 
     /// One link with the velocity of the surface \[B1\], force and torque of the link \[C2\].
@@ -104,20 +145,20 @@ impl Immersed {
         &self,
         host: &dyn Host,
         open: &Open,
-        w: &[f64; 6],
-        (volumes, ideal): (&Volumes, f64),
+        (volumes, moved): (&Volumes, &Moved),
         links: &mut [f64; 6],
         returned: &mut Returned,
     ) {
         let out = usize::from(open.link.out);
-        let (u, moving) = self.moving(host, (&open.arm, out), open.rho, w);
+        let Moved { ideal, u, moving } = *moved;
         let leak = if open.interface { 0.0 } else { W[out] * volumes.leak };
         let value = host.stored((open.base + open.share * moving) - leak);
-        returned.values.push((open.link.covered, open.link.slot, value));
+        let place = host.place(open.link.covered as usize, usize::from(open.link.slot));
+        returned.values.push((place, value));
         let (given, taken) = (open.leaving + value, open.leaving - value);
         let c = C[out].map(f64::from);
         let push: L3 = std::array::from_fn(|a| c[a] * given - u[a] * taken);
-        let turn = cross(&open.arm, &push);
+        let turn = cross(&open.arm(), &push);
         for a in 0..3 {
             links[a] += push[a];
             links[a + 3] += turn[a];
@@ -154,15 +195,27 @@ impl Immersed {
     ///
     /// A grain that is wedged in may have one open link for fifty blocked ones. No link takes more than the fastest
     /// part of the surface displaces there, or it would be a jet; what is left stays in the grain's debt.
-    fn volumes(&self, host: &dyn Host, own: &Gathered, w: &[f64; 6], settled: f64) -> Volumes {
-        let mut volumes = Volumes { ideal: Vec::with_capacity(own.open.len()), ..Volumes::default() };
+    fn volumes(
+        &self,
+        host: &dyn Host,
+        (own, obstructed): (&Gathered, bool),
+        w: &[f64; 6],
+        settled: f64,
+        volumes: &mut Volumes,
+    ) {
+        volumes.moved.clear();
+        (volumes.leak, volumes.blocked, volumes.surplus) = (0.0, 0.0, 0.0);
         let (mut liquid, mut interface, mut excess, mut all, mut surplus) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let mut fastest = 0.0_f64;
         for link in &own.open {
             let out = usize::from(link.link.out);
-            let (_, straight) = self.moving(host, (&link.middle, out), link.rho, w);
+            let (u_middle, straight) = self.moving(host, (&link.middle(), out), link.rho, w);
             let ideal = straight / link.rho;
-            volumes.ideal.push(ideal);
+            let (u, moving) = match self.config.wall {
+                GrainWall::HalfWay => (u_middle, straight),
+                GrainWall::CentralLinear => self.moving(host, (&link.arm(), out), link.rho, w),
+            };
+            volumes.moved.push(Moved { ideal, u, moving });
             all += ideal;
             fastest = fastest.max(ideal.abs() / W[out]);
             if link.interface {
@@ -172,11 +225,10 @@ impl Immersed {
             liquid += W[out];
             surplus += (1.0 - link.wet) * ideal;
             if self.config.wall != GrainWall::HalfWay {
-                let (_, moving) = self.moving(host, (&link.arm, out), link.rho, w);
                 excess += ((link.base - link.leaving) + link.share * moving) - straight;
             }
         }
-        if own.blocked {
+        if obstructed {
             for dry in &own.dry {
                 all += self.moving(host, (&dry.middle, usize::from(dry.out)), 1.0, w).1;
             }
@@ -190,7 +242,6 @@ impl Immersed {
         if interface > 0.0 {
             volumes.surplus = ((settled - surplus) / interface).clamp(-fastest, fastest);
         }
-        volumes
     }
 
     /// Mass that a grain hands back to the interface around it in this step: what the staircase of its waterline has
@@ -204,12 +255,23 @@ impl Immersed {
 /// See [`Immersed::volumes`].
 #[derive(Clone, Debug, Default)]
 struct Volumes {
-    /// What each link returns beyond what leaves, at the reference density.
-    ideal: Vec<f64>,
+    /// Of each link.
+    moved: Vec<Moved>,
     /// What links to liquid return too much, per unit of weight.
     leak: f64,
     /// The part of it that makes up for blocked links.
     blocked: f64,
     /// What links to interface get besides, per unit of weight.
     surplus: f64,
+}
+
+/// What the motion of the surface does at a link.
+#[derive(Clone, Copy, Debug)]
+struct Moved {
+    /// What a half-way link returns beyond what leaves, at the reference density.
+    ideal: f64,
+    /// Velocity of the surface where the link meets it.
+    u: L3,
+    /// What it adds to a half-way link \[B1\].
+    moving: f64,
 }

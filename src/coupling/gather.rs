@@ -8,19 +8,18 @@ use super::immersed::Immersed;
 use super::link::{Ball, Link, cross, cut};
 use super::predict::Friction;
 use super::pressure::{Fit, Samples};
-use crate::boundary::links::Source;
 use crate::free_surface::Kind;
 use crate::lattice::moments::density_excess;
-use crate::lattice::{C, W};
+use crate::lattice::{C, Q, W};
 
 /// A link whose outer cell holds fluid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Open {
     pub link: Link,
-    /// From the centre of the grain to where the link meets its surface.
-    pub arm: L3,
-    /// From the centre of the grain to the middle of the link.
-    pub middle: L3,
+    /// From the centre of the grain to the cell.
+    pub cell: L3,
+    /// Where the link meets the surface, as a share of its length.
+    pub q: f64,
     /// f_out* that leaves.
     pub leaving: f64,
     /// What comes back from a surface at rest.
@@ -35,6 +34,20 @@ pub(super) struct Open {
     pub interface: bool,
 }
 
+impl Open {
+    /// From the centre of the grain to where the link meets its surface.
+    #[inline]
+    pub fn arm(&self) -> L3 {
+        along(&self.cell, usize::from(self.link.out), self.q)
+    }
+
+    /// From the centre of the grain to the middle of the link.
+    #[inline]
+    pub fn middle(&self) -> L3 {
+        along(&self.cell, usize::from(self.link.out), 0.5)
+    }
+}
+
 /// A link whose outer cell is gas.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Dry {
@@ -44,16 +57,36 @@ pub(super) struct Dry {
     pub covered: u32,
 }
 
-/// What the links of one grain say before its velocity is known.
+/// What the links of one grain say before its velocity is known; filled anew for every grain.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Gathered {
     pub open: Vec<Open>,
     pub friction: Friction,
-    /// Around the grain; only where a part of its surface is blocked.
-    pub fit: Option<Fit>,
     /// Links to gas.
     pub dry: Vec<Dry>,
+    balls: Vec<Ball>,
+    /// From the centre of each ball to the cell that is looked at, and its radius.
+    around: Vec<(L3, f64)>,
+}
+
+/// The pressure around a grain of which a part of the surface is blocked by a wall or another grain.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Pressed {
     pub blocked: bool,
+    /// `None` without fluid around, and where nothing is blocked.
+    pub fit: Option<Fit>,
+}
+
+/// A fluid cell beside a grain.
+struct Beside {
+    /// From the centre of the grain.
+    r: L3,
+    rho: f64,
+    /// See [`Open`].
+    wet: f64,
+    interface: bool,
+    /// Populations after collision.
+    f: [f64; Q],
 }
 
 impl Gathered {
@@ -78,103 +111,111 @@ impl Gathered {
 }
 
 impl Immersed {
-    /// First look at the links of a grain.
-    pub(super) fn gather(&self, host: &dyn Host, grain: usize) -> Gathered {
+    /// Pressure around a grain, if a part of its surface is blocked.
+    pub(super) fn pressed(&self, host: &dyn Host, grain: usize) -> Pressed {
         let cover = self.coverage.of(grain);
-        let mut found = Gathered { open: Vec::with_capacity(cover.links.len()), ..Gathered::default() };
-        let balls = self.balls(grain);
+        let covered = |link: &Link| self.coverage.owner(link.cell as usize) != NOBODY;
+        if cover.blocked.is_empty() && !cover.links.iter().any(covered) {
+            return Pressed::default();
+        }
         let centre = self.centre(grain);
-        found.blocked = !cover.blocked.is_empty();
         let mut samples = Samples::default();
-        let mut own: Option<(u32, f64, L3, f64)> = None;
-        for link in &cover.links {
-            let cell = link.cell as usize;
+        for links in cover.links.chunk_by(|a, b| a.cell == b.cell) {
+            let cell = links[0].cell as usize;
+            if host.kind(cell).is_fluid() {
+                let r = self.shape.apart(&self.shape.centre(cell), &centre);
+                // As in a density: the sum is rounded with the one.
+                let rho = 1.0 + density_excess(&host.after(cell));
+                samples.add(&r, rho - 1.0);
+            }
+        }
+        Pressed { blocked: true, fit: samples.fit() }
+    }
+
+    /// First look at the links of a grain.
+    pub(super) fn gather(&self, host: &dyn Host, grain: usize, found: &mut Gathered) {
+        found.open.clear();
+        found.dry.clear();
+        found.balls.clear();
+        found.balls.extend(self.members(grain));
+        let interpolated = self.config.wall == GrainWall::CentralLinear;
+        let cover = self.coverage.of(grain);
+        let centre = self.centre(grain);
+        let mut at_surface = false;
+        // Links are in order of their cell.
+        for links in cover.links.chunk_by(|a, b| a.cell == b.cell) {
+            let cell = links[0].cell as usize;
             let kind = host.kind(cell);
-            if !kind.is_fluid() {
-                if kind == Kind::Gas {
-                    let r = self.shape.apart(&self.shape.centre(cell), &centre);
-                    let middle = half_way(&r, usize::from(link.out));
-                    found.dry.push(Dry { middle, out: link.out, covered: link.covered });
-                }
-                found.blocked |= kind == Kind::Solid && self.coverage.owner(cell) != NOBODY;
+            if kind == Kind::Solid {
                 continue;
             }
-            // Links are in order of their cell: what belongs to the cell is found once.
-            let (rho, r, wet) = match own {
-                Some((known, rho, r, wet)) if known == link.cell => (rho, r, wet),
-                _ => {
-                    let rho = 1.0 + density_excess(&host.after(cell));
-                    let r = self.shape.apart(&self.shape.centre(cell), &centre);
-                    let wet = if kind == Kind::Liquid { 1.0 } else { host.fill(cell) };
-                    samples.add(&r, rho - 1.0);
-                    own = Some((link.cell, rho, r, wet));
-                    (rho, r, wet)
-                }
-            };
-            let open = self.look(host, link, &balls, (rho, r, wet));
-            found.open.push(open);
+            let r = self.shape.apart(&self.shape.centre(cell), &centre);
+            if kind == Kind::Gas {
+                let dry = |link: &Link| Dry {
+                    middle: along(&r, usize::from(link.out), 0.5),
+                    out: link.out,
+                    covered: link.covered,
+                };
+                found.dry.extend(links.iter().map(dry));
+                continue;
+            }
+            let f = host.after(cell);
+            let interface = kind == Kind::Interface;
+            at_surface |= interface;
+            let wet = if interface { host.fill(cell) } else { 1.0 };
+            let beside = Beside { r, rho: 1.0 + density_excess(&f), wet, interface, f };
+            found.around.clear();
+            if interpolated {
+                let here = self.shape.centre(cell);
+                let from = |ball: &Ball| (self.shape.apart(&here, &ball.centre), ball.radius);
+                found.around.extend(found.balls.iter().map(from));
+            }
+            for link in links {
+                found.open.push(self.look(host, link, &found.around, &beside));
+            }
         }
-        if !found.dry.is_empty() || found.open.iter().any(|open| open.interface) {
+        if at_surface || !found.dry.is_empty() {
             found.share_out(&cover.cells);
         }
+        found.friction = Friction::default();
         for open in &found.open {
             let out = usize::from(open.link.out);
             let c = C[out].map(f64::from);
-            let turn = cross(&open.arm, &c);
+            let turn = cross(&open.arm(), &c);
             let v = [c[0], c[1], c[2], turn[0], turn[1], turn[2]];
             found.friction.add(&v, open.leaving + open.base, 6.0 * W[out] * open.rho * open.share);
         }
-        if found.blocked {
-            found.fit = samples.fit();
-        }
-        found
     }
 
     /// One link with the surface at rest.
-    fn look(&self, host: &dyn Host, link: &Link, balls: &[Ball], (rho, r, wet): (f64, L3, f64)) -> Open {
+    fn look(&self, host: &dyn Host, link: &Link, balls: &[(L3, f64)], beside: &Beside) -> Open {
         let out = usize::from(link.out);
-        let leaving = host.after_one(link.cell as usize, out);
-        let c = C[out].map(f64::from);
-        let middle = half_way(&r, out);
-        let interface = host.kind(link.cell as usize) == Kind::Interface;
+        let leaving = beside.f[out];
         let half = Open {
             link: *link,
-            arm: middle,
-            middle,
+            cell: beside.r,
+            q: 0.5,
             leaving,
             base: leaving,
             share: 1.0,
-            rho,
-            wet,
-            interface,
+            rho: beside.rho,
+            wet: beside.wet,
+            interface: beside.interface,
         };
-        if self.config.wall == GrainWall::HalfWay {
+        if self.config.wall == GrainWall::HalfWay || link.behind == NOBODY {
             return half;
         }
-        // The cell behind, straight along the link.
-        let behind = match self.shape.source(host.setup(), link.cell as usize, out) {
-            Source::Cell { cell, direction } if usize::from(direction) == out => cell as usize,
-            _ => return half,
-        };
-        if !host.kind(behind).is_fluid() {
-            return half;
-        }
-        let here = self.shape.centre(link.cell as usize);
-        let q = cut(balls.iter().map(|ball| (self.shape.apart(&here, &ball.centre), ball.radius)), out);
+        let Some(from_behind) = host.fluid_one(link.behind as usize, out) else { return half };
+        let q = cut(balls, out);
         let kappa = (1.0 - 2.0 * q) / (1.0 + 2.0 * q);
-        let (from_behind, returning) =
-            (host.after_one(behind, out), host.after_one(link.cell as usize, usize::from(link.slot)));
-        Open {
-            arm: std::array::from_fn(|a| r[a] + q * c[a]),
-            base: leaving + kappa * (from_behind - returning),
-            share: 2.0 / (1.0 + 2.0 * q),
-            ..half
-        }
+        let returning = beside.f[usize::from(link.slot)];
+        Open { q, base: leaving + kappa * (from_behind - returning), share: 2.0 / (1.0 + 2.0 * q), ..half }
     }
 }
 
-/// Middle of a link that leaves the cell at `r` along c_out.
+/// The point of a link that leaves the cell at `r` along c_out, at a share of its length.
 #[inline]
-fn half_way(r: &L3, out: usize) -> L3 {
-    std::array::from_fn(|a| r[a] + 0.5 * f64::from(C[out][a]))
+fn along(r: &L3, out: usize, share: f64) -> L3 {
+    let c = C[out].map(f64::from);
+    std::array::from_fn(|a| r[a] + share * c[a])
 }

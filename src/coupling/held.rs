@@ -3,7 +3,7 @@
 use super::L3;
 use super::config::VolumeRule;
 use super::coverage::NOBODY;
-use super::gather::Gathered;
+use super::gather::{Gathered, Pressed};
 use super::host::Host;
 use super::immersed::Immersed;
 use super::link::cross;
@@ -15,7 +15,7 @@ impl Immersed {
     /// Force and torque of the fluid that is pressed between a grain and a wall or another grain, too thin for a cell:
     /// the pressure around the grain, continued. Between two grains the mean of the two, so that what one feels
     /// the other feels too.
-    pub(super) fn blocked_force(&self, host: &dyn Host, grain: usize, all: &[Gathered]) -> [f64; 6] {
+    pub(super) fn blocked_force(&self, host: &dyn Host, grain: usize, all: &[Pressed]) -> [f64; 6] {
         let mut sum = [0.0; 6];
         let own = &all[grain];
         if !own.blocked {

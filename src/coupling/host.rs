@@ -16,6 +16,15 @@ pub struct Uncovered {
     pub mass: f64,
 }
 
+/// Where a backend keeps one population.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Block, or cell.
+    pub block: u32,
+    /// Place in it.
+    pub index: u32,
+}
+
 /// The cells of a run with grains, besides what conversions need of them; covered cells are solid.
 pub trait Host: Cells + Sync {
     /// The set-up.
@@ -29,10 +38,12 @@ pub trait Host: Cells + Sync {
     fn after(&self, cell: usize) -> [f64; Q];
     /// A number as a population is kept.
     fn stored(&self, value: f64) -> f64;
-    /// One of them, of any cell that [`Host::after`] may be asked for.
-    fn after_one(&self, cell: usize, i: usize) -> f64;
-    /// Puts what streaming will take out of a covered cell.
-    fn put(&mut self, cell: usize, i: usize, value: f64);
+    /// Population `i` after the last collision, if the cell holds fluid.
+    fn fluid_one(&self, cell: usize, i: usize) -> Option<f64>;
+    /// Where population `i` of a covered cell is kept, until cells are covered or uncovered again.
+    fn place(&self, cell: usize, i: usize) -> Place;
+    /// Puts there what streaming will take out of the covered cell.
+    fn put(&mut self, place: Place, value: f64);
     /// Fluid or gas becomes solid.
     fn cover(&mut self, cell: usize);
     /// A covered cell becomes something else.

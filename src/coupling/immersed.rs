@@ -3,6 +3,7 @@
 use super::L3;
 use super::config::Suspension;
 use super::coverage::Coverage;
+use super::exchange::Returned;
 use super::gaps::Gaps;
 use super::host::Host;
 use super::link::{Ball, Box3};
@@ -10,6 +11,7 @@ use super::report::CouplingBooks;
 use crate::dem::bodies::SPHERE;
 use crate::dem::{Dem, DemError, V3};
 use crate::solver::setup::Setup;
+use std::sync::OnceLock;
 
 /// Force and torque on one grain in the last step, lattice units: (F, T).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,6 +42,24 @@ pub fn body_force(setup: &Setup, step: u64, grains: Option<&Immersed>) -> L3 {
     std::array::from_fn(|a| force[a] + grains.gradient[a])
 }
 
+/// Runs `work` on the backend's threads; without any on the caller's pool, or on one thread of its own.
+pub(super) fn on_pool<R: Send>(
+    alone: &OnceLock<Option<rayon::ThreadPool>>,
+    backend: Option<&rayon::ThreadPool>,
+    work: impl FnOnce() -> R + Send,
+) -> R {
+    let make = || rayon::ThreadPoolBuilder::new().num_threads(1).build().ok();
+    let pool = match backend {
+        Some(pool) => Some(pool),
+        None if rayon::current_thread_index().is_some() => None,
+        None => alone.get_or_init(make).as_ref(),
+    };
+    match pool {
+        Some(pool) => pool.install(work),
+        None => work(),
+    }
+}
+
 /// Grains in a fluid.
 pub struct Immersed {
     pub(super) config: Suspension,
@@ -64,6 +84,10 @@ pub struct Immersed {
     /// Cells that are neither fixed solids nor outside: what grains and fluid share.
     pub(super) room: u64,
     pub(super) failure: Option<DemError>,
+    /// Room for what grains return, kept from step to step.
+    pub(super) answers: Vec<Returned>,
+    /// For runs on one thread: without a pool the grains would take all threads of the machine.
+    pub(super) alone: OnceLock<Option<rayon::ThreadPool>>,
 }
 
 impl Immersed {
@@ -94,10 +118,12 @@ impl Immersed {
             with_gas,
             room: (setup.cells() - solid) as u64,
             failure: None,
+            answers: Vec::new(),
+            alone: OnceLock::new(),
             config,
             dem,
         };
-        immersed.first = immersed.update_coverage(setup);
+        immersed.first = immersed.update_coverage(setup, None);
         let fluid = immersed.room - immersed.coverage.covered_cells();
         immersed.balance(fluid, &setup.force.at(0));
         Ok(immersed)
@@ -190,7 +216,11 @@ impl Immersed {
         self.coverage.bytes() + (self.loads.len() * (size_of::<BodyLoad>() + size_of::<[f64; 6]>())) as u64
     }
 
-    fn update_coverage(&mut self, setup: &Setup) -> super::coverage::Changes {
+    fn update_coverage(
+        &mut self,
+        setup: &Setup,
+        pool: Option<&rayon::ThreadPool>,
+    ) -> super::coverage::Changes {
         let mut coverage = std::mem::replace(&mut self.coverage, Coverage::new(0, 0));
         let this = &*self;
         let balls = |grain: usize| this.balls(grain);
@@ -200,14 +230,14 @@ impl Immersed {
                 far.max((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt())
             })
         };
-        let changes = coverage.update(setup, &this.shape, &balls, &moved);
+        let changes = on_pool(&self.alone, pool, || coverage.update(setup, &this.shape, &balls, &moved));
         self.coverage = coverage;
         changes
     }
 
     /// Covers and uncovers cells after the grains have moved.
     pub(super) fn follow(&mut self, host: &mut dyn Host) {
-        let changes = self.update_coverage(host.setup());
+        let changes = self.update_coverage(host.setup(), host.pool());
         self.apply(host, &changes);
     }
 
@@ -228,7 +258,7 @@ impl Immersed {
         }
     }
 
-    fn members(&self, grain: usize) -> impl Iterator<Item = Ball> + '_ {
+    pub(super) fn members(&self, grain: usize) -> impl Iterator<Item = Ball> + '_ {
         let first = &self.dem.bodies().first_member;
         let scale = 1.0 / self.config.units.dx_m;
         self.dem.members()[first[grain] as usize..first[grain + 1] as usize].iter().map(move |member| Ball {

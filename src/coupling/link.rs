@@ -25,6 +25,8 @@ pub struct Link {
     pub slot: u8,
     /// The covered cell.
     pub covered: u32,
+    /// The cell straight behind the one outside, or [`super::coverage::NOBODY`].
+    pub behind: u32,
 }
 
 /// A link from a covered cell to a wall or a fixed solid: no fluid fits between.
@@ -83,7 +85,8 @@ impl Box3 {
             let d = to[a] - from[a];
             if self.periodic[a] {
                 let n = self.extents[a] as f64;
-                d - n * (d / n).round()
+                // Nothing to wrap, in most cases.
+                if d.abs() < 0.49 * n { d } else { d - n * (d / n).round() }
             } else {
                 d
             }
@@ -96,9 +99,11 @@ impl Box3 {
     pub fn source(&self, setup: &Setup, cell: usize, i: usize) -> Source {
         let at = self.coordinates(cell);
         let inside = (0..3).all(|a| at[a] > 0 && at[a] + 1 < self.extents[a]);
-        if inside && self.solid_free {
-            let from = (cell as isize - self.offset[i]) as u32;
-            return Source::Cell { cell: from, direction: i as u8 };
+        if inside {
+            let from = (cell as isize - self.offset[i]) as usize;
+            if self.solid_free || !setup.is_solid(from) {
+                return Source::Cell { cell: from as u32, direction: i as u8 };
+            }
         }
         resolve(setup, at, i).0
     }
@@ -112,23 +117,33 @@ impl Box3 {
             Source::Wall { .. } | Source::Open => None,
         }
     }
+
+    /// The cell from which population `out` of a cell comes without being turned by a mirror plane.
+    #[inline]
+    #[must_use]
+    pub fn straight_behind(&self, setup: &Setup, cell: usize, out: usize) -> Option<u32> {
+        match self.source(setup, cell, out) {
+            Source::Cell { cell, direction } if usize::from(direction) == out => Some(cell),
+            _ => None,
+        }
+    }
 }
 
 /// Share of a link that lies outside the balls: distance from a point to the first of their surfaces along c_out,
 /// over the length of the link; ½ if none is cut.
 ///
 /// # Arguments
-/// `from`: vectors from the centre of each ball to the cell, cells. `radii`: of the balls.
+/// `balls`: of each ball, the vector from its centre to the cell, and its radius, cells.
 /// # Source
 /// |x + q c − x_b| = r, smaller root.
 /// # Verified by
 /// Test `exact_cut_of_a_link`.
 #[must_use]
-pub fn cut(balls: impl Iterator<Item = (L3, f64)>, out: usize) -> f64 {
+pub fn cut(balls: &[(L3, f64)], out: usize) -> f64 {
     let c = C[out].map(f64::from);
     let length2 = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
     let mut first = 2.0;
-    for (d, r) in balls {
+    for &(d, r) in balls {
         let along = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
         let beyond = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - r * r;
         let discriminant = along * along - length2 * beyond;
@@ -157,13 +172,13 @@ mod tests {
     #[test]
     fn exact_cut_of_a_link() {
         // A ball of radius 2 at the origin; cell at (3, 0, 0), link towards −x: cut at x = 2, one cell away.
-        let ball = |d: L3| std::iter::once((d, 2.0));
-        assert_eq!(cut(ball([2.75, 0.0, 0.0]), 2), 0.75);
+        let ball = |d: L3| [(d, 2.0)];
+        assert_eq!(cut(&ball([2.75, 0.0, 0.0]), 2), 0.75);
         // Along (−1, −1, 0) from (2, 1, 0): (2 − q)² + (1 − q)² = 4 at q = (3 − √7)/2.
         let expected = 0.5 * (3.0 - 7.0_f64.sqrt());
-        assert!((cut(ball([2.0, 1.0, 0.0]), 8) - expected).abs() < 1e-15);
+        assert!((cut(&ball([2.0, 1.0, 0.0]), 8) - expected).abs() < 1e-15);
         // A second ball nearer to the cell is met first.
         let two = [([2.75, 0.0, 0.0], 2.0), ([2.5, 0.0, 0.0], 2.0)];
-        assert_eq!(cut(two.into_iter(), 2), 0.5);
+        assert_eq!(cut(&two, 2), 0.5);
     }
 }

@@ -37,7 +37,7 @@ mod report;
 mod subcycle;
 
 pub use config::{GrainRefill, GrainWall, Lubrication, Mutant, RefillMass, Suspension, VolumeRule};
-pub use host::{Host, Uncovered};
+pub use host::{Host, Place, Uncovered};
 pub use immersed::{BodyLoad, Immersed, body_force};
 pub use lubrication::{normal as lubrication_normal, tangential as lubrication_tangential};
 pub use report::{CouplingBooks, GrainTotals};

@@ -1,7 +1,7 @@
 //! The grains' own steps inside a step of the fluid \[C4\].
 
 use super::host::Host;
-use super::immersed::Immersed;
+use super::immersed::{Immersed, on_pool};
 use crate::dem::V3;
 use crate::solver::run::{Runaway, Stopped};
 
@@ -13,10 +13,9 @@ impl Immersed {
     /// The grains could not go on ([`Immersed::failure`]), or one is faster than the fluid may be.
     pub fn advance(&mut self, host: &mut dyn Host) -> Result<(), Stopped> {
         let before: Vec<([f64; 6], V3)> = (0..self.grains()).map(|grain| self.momenta_of(grain)).collect();
-        let moved = match host.pool() {
-            Some(pool) => pool.install(|| self.sub_steps()),
-            None => self.sub_steps(),
-        };
+        let alone = std::mem::take(&mut self.alone);
+        let moved = on_pool(&alone, host.pool(), || self.sub_steps());
+        self.alone = alone;
         if let Err(error) = moved {
             let grain = match &error {
                 crate::dem::DemError::Overlap { grains, .. } => grains.0,

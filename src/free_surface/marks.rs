@@ -18,19 +18,20 @@ pub struct Touches {
     pub gas: bool,
     /// A liquid cell.
     pub liquid: bool,
-    /// A wall or solid, or an interface cell that touches liquid or a wall.
+    /// A wall or solid, or an interface cell that touches liquid or a wall; and its links hold it.
     pub held: bool,
 }
 
 /// Fill if m > (1 + ε)ρ, or without gas neighbour if m > (1 − η)ρ. Empty if m < −ερ, or without liquid
-/// neighbour if m < ηρ, or if neither liquid nor wall is within two links. Drops and threads that small
-/// cannot move: their mass has no filled neighbour to go to, and the force would accelerate them in place
-/// without bound.
+/// neighbour if m < ηρ, or if neither liquid nor wall is within two links, or if there is no liquid neighbour and
+/// the cell moves beside all links to walls and fluid ([`super::hold::Span`]) faster than parked mass falls. Drops
+/// and threads that small cannot move: their mass has no filled neighbour to go to, and the force would accelerate
+/// them in place without bound.
 ///
 /// # Arguments
 /// `mass`: m. `rho`: ρ. `margin`: ε. `lonely`: η.
 /// # Source
-/// Design \[F4\], \[F6\]; ERRATA 25.
+/// Design \[F4\], \[F6\]; ERRATA 25. The last rule is ours.
 /// # Verified by
 /// Claims `flat-layer-without-flicker`, `isolated-cell`.
 #[inline(always)]

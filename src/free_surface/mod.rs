@@ -6,6 +6,7 @@
 
 pub mod exchange;
 pub mod force;
+pub mod hold;
 pub mod hydrostatic;
 pub mod ledger;
 pub mod marks;

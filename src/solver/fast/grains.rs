@@ -5,7 +5,7 @@ use super::kernel::index;
 use super::layout::NONE;
 use super::run::FastRun;
 use super::surface::InterfaceCell;
-use crate::coupling::{Host, Immersed, Uncovered, body_force};
+use crate::coupling::{Host, Immersed, Place, Uncovered, body_force};
 use crate::free_surface::Kind;
 use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::lattice::Q;
@@ -66,18 +66,30 @@ impl<P: Physics, E: Element> Host for FastRun<P, E> {
     }
     fn after(&self, cell: usize) -> [f64; Q] {
         let Some((number, local)) = self.find(cell) else { return [0.0; Q] };
-        let own = self.old[number].get();
-        std::array::from_fn(|i| own[index::<E>(local, i)].to_f64())
+        let start = index::<E>(local, 0);
+        let own = &self.old[number].get()[start..=start + (Q - 1) * E::PER_LINE];
+        let mut f = [0.0; Q];
+        for (f, own) in f.iter_mut().zip(own.iter().step_by(E::PER_LINE)) {
+            *f = own.to_f64();
+        }
+        f
     }
     fn stored(&self, value: f64) -> f64 {
         E::from_f64(value).to_f64()
     }
-    fn after_one(&self, cell: usize, i: usize) -> f64 {
-        self.find(cell).map_or(0.0, |(number, local)| self.old[number].get()[index::<E>(local, i)].to_f64())
+    fn fluid_one(&self, cell: usize, i: usize) -> Option<f64> {
+        let (number, local) = self.find(cell)?;
+        let fluid = self.surface.as_ref().is_some_and(|surface| surface.kinds[number][local].is_fluid());
+        fluid.then(|| self.old[number].get()[index::<E>(local, i)].to_f64())
     }
-    fn put(&mut self, cell: usize, i: usize, value: f64) {
-        if let Some((number, local)) = self.find(cell) {
-            self.old[number].get_mut()[index::<E>(local, i)] = E::from_f64(value);
+    fn place(&self, cell: usize, i: usize) -> Place {
+        // Covered cells have a block.
+        let (number, local) = self.find(cell).unwrap_or((usize::MAX, 0));
+        Place { block: number as u32, index: index::<E>(local, i) as u32 }
+    }
+    fn put(&mut self, place: Place, value: f64) {
+        if let Some(block) = self.old.get_mut(place.block as usize) {
+            block.get_mut()[place.index as usize] = E::from_f64(value);
         }
     }
     fn cover(&mut self, cell: usize) {

@@ -11,6 +11,7 @@ use crate::lattice::Q;
 use crate::lattice::moments::{density_excess, moments};
 use crate::solver::conversion::{Cells, convert, fill_of, touch, verdict};
 use crate::solver::fast::element::Element;
+use crate::solver::fast::layout::NONE;
 use crate::solver::fast::run::{FastRun, each};
 use crate::solver::physics::Physics;
 use crate::solver::setup::YieldTreatment;
@@ -47,17 +48,15 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     fn marks(&self) -> BTreeMap<u32, Mark> {
         let Some(surface) = &self.surface else { return BTreeMap::new() };
         let rules = &surface.rules;
-        let firm = touch::LIQUID | touch::WALL;
         let items: Vec<_> =
             surface.interface.iter().enumerate().filter(|(_, list)| !list.is_empty()).collect();
         let lists = each(self.pool.as_ref(), items, |(number, list): (usize, &Vec<InterfaceCell>)| {
             let mut marks = Vec::new();
             for cell in list {
                 let number_in_box = || self.number_in_box(number, usize::from(cell.local));
-                // Most cells touch liquid or a wall; only the others have to look further.
-                let verdict = if cell.touches & firm != 0 {
-                    let liquid = cell.touches & touch::LIQUID != 0;
-                    let touches = Touches { gas: cell.touches & touch::GAS != 0, liquid, held: true };
+                // Most cells touch liquid; only the others have to look further.
+                let verdict = if cell.touches & touch::LIQUID != 0 {
+                    let touches = Touches { gas: cell.touches & touch::GAS != 0, liquid: true, held: true };
                     mark(cell.mass, cell.rho, touches, rules.margin, rules.lonely_margin)
                 } else {
                     verdict(self, rules, number_in_box(), cell.rho)
@@ -77,9 +76,9 @@ impl<P: Physics, E: Element> FastRun<P, E> {
 
     /// Block and place of a cell of the box, if it has a block.
     pub(in crate::solver::fast) fn find(&self, cell: usize) -> Option<(usize, usize)> {
-        let slot = self.layout.slot(self.setup.coordinates(cell))?;
-        let cells = self.layout.block_cells();
-        Some((slot / cells, slot % cells))
+        let (place, local) = self.layout.find(self.setup.coordinates(cell));
+        let number = self.layout.block_at(place);
+        (number != NONE).then_some((number as usize, local))
     }
 
     pub(in crate::solver::fast) fn record_of(&self, cell: usize) -> Option<&InterfaceCell> {
@@ -124,7 +123,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             }
             (Ok(_) | Err(_), None) => {}
         }
-        surface.list_lanes(number, E::PER_LINE);
+        surface.list_lane(number, local, E::PER_LINE);
     }
 }
 

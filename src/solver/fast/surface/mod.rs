@@ -158,6 +158,18 @@ impl Surface {
         }
         self.lanes[number] = lanes;
     }
+
+    /// The same for one cell whose kind or record has changed.
+    fn list_lane(&mut self, number: usize, local: usize, line: usize) {
+        let kept = self.record(number, local).is_some();
+        let kind = self.kinds[number][local];
+        let Some(lane) = self.lanes[number].get_mut(local / line) else { return };
+        let bit = 1 << (local % line);
+        let set = |bits: &mut u16, on: bool| *bits = if on { *bits | bit } else { *bits & !bit };
+        set(&mut lane.fluid, kind.is_fluid());
+        set(&mut lane.interface, kind == Kind::Interface);
+        set(&mut lane.kept, kept);
+    }
 }
 
 impl<P: Physics, E: Element> FastRun<P, E> {

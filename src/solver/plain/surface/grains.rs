@@ -1,7 +1,7 @@
 //! Grains in the fluid: the arrays of this backend for [`crate::coupling`].
 
 use super::SurfaceRun;
-use crate::coupling::{Host, Immersed, Uncovered, body_force};
+use crate::coupling::{Host, Immersed, Place, Uncovered, body_force};
 use crate::free_surface::Kind;
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
@@ -71,11 +71,14 @@ impl<P: Physics> Host for SurfaceRun<P> {
     fn stored(&self, value: f64) -> f64 {
         value
     }
-    fn after_one(&self, cell: usize, i: usize) -> f64 {
-        self.post[cell][i]
+    fn fluid_one(&self, cell: usize, i: usize) -> Option<f64> {
+        self.kinds[cell].is_fluid().then(|| self.post[cell][i])
     }
-    fn put(&mut self, cell: usize, i: usize, value: f64) {
-        self.post[cell][i] = value;
+    fn place(&self, cell: usize, i: usize) -> Place {
+        Place { block: cell as u32, index: i as u32 }
+    }
+    fn put(&mut self, place: Place, value: f64) {
+        self.post[place.block as usize][place.index as usize] = value;
     }
     fn cover(&mut self, cell: usize) {
         self.kinds[cell] = Kind::Solid;

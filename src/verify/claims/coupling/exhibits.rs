@@ -13,7 +13,8 @@ use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
 /// Lubrication.
 pub const APPROACH: Exhibit = Exhibit {
     id: "lubrication-parts",
-    caption: "Force between two approaching spheres of 4 cells radius: what the lattice carries, what lubrication adds, and the exact series.",
+    caption: "Force between two approaching spheres: what the lattice carries, what lubrication adds below its cut-off of 2/3 of a cell, and \
+              the exact series; mean over six places of the pair within a cell.",
     timed: false,
     run: parts,
 };
@@ -24,28 +25,42 @@ fn parts(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> 
     } else {
         &[0.1, 0.5, 1.0]
     };
-    let rows = approach::table(backend, gaps)?;
+    let radii: &[f64] = if full { &[2.5, 4.0, 6.0] } else { &[2.5] };
     let mut table = Table::new(
         "Force over 6 pi mu R U",
-        &["gap (cells)", "lattice", "lubrication", "sum", "exact", "error"],
+        &[
+            "R (cells)",
+            "gap (cells)",
+            "lattice",
+            "lubrication",
+            "sum",
+            "exact",
+            "error",
+            "deviation over places",
+        ],
     );
-    for [gap, lattice, contact, reference] in &rows {
-        let sum = lattice + contact;
-        table.push(vec![
-            (*gap).into(),
-            (*lattice).into(),
-            (*contact).into(),
-            sum.into(),
-            (*reference).into(),
-            (sum / reference - 1.0).into(),
-        ]);
+    let mut enter = |radius: f64, rows: &[[f64; 5]]| {
+        for [gap, lattice, contact, reference, spread] in rows {
+            let sum = lattice + contact;
+            let numbers =
+                [radius, *gap, *lattice, *contact, sum, *reference, sum / reference - 1.0, spread / sum];
+            table.push(numbers.map(Into::into).to_vec());
+        }
+    };
+    let rows = approach::table(backend, 4.0, gaps)?;
+    enter(4.0, &rows);
+    for &radius in radii.iter().filter(|&&radius| radius != 4.0) {
+        enter(radius, &approach::table(backend, radius, &[0.1, 0.3, 0.5, 0.7, 1.0])?);
     }
-    let column = |f: &dyn Fn(&[f64; 4]) -> f64| rows.iter().map(|r| [r[0], f(r)]).collect::<Vec<_>>();
-    let plot =
-        Plot::new("Two spheres approaching", Axis::log("gap", "cells"), Axis::log("F/(6 pi mu R U)", ""))
-            .with(Series::line_markers("lattice", column(&|r| r[1])))
-            .with(Series::line_markers("with lubrication", column(&|r| r[1] + r[2])))
-            .with(Series::reference("exact", column(&|r| r[3])));
+    let column = |f: &dyn Fn(&[f64; 5]) -> f64| rows.iter().map(|r| [r[0], f(r)]).collect::<Vec<_>>();
+    let plot = Plot::new(
+        "Two spheres of 4 cells approaching",
+        Axis::log("gap", "cells"),
+        Axis::log("F/(6 pi mu R U)", ""),
+    )
+    .with(Series::line_markers("lattice", column(&|r| r[1])))
+    .with(Series::line_markers("with lubrication", column(&|r| r[1] + r[2])))
+    .with(Series::reference("exact", column(&|r| r[3])));
     Ok(ExhibitData { tables: vec![table], plots: vec![plot], notes: vec![] })
 }
 
