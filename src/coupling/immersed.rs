@@ -339,3 +339,18 @@ impl Immersed {
         std::array::from_fn(|a| std::array::from_fn(|b| full[(a, b)]))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_a_pool_grains_take_one_thread() {
+        let alone = OnceLock::new();
+        assert_eq!(on_pool(&alone, None, rayon::current_num_threads), 1);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build();
+        let pool = pool.unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(on_pool(&alone, Some(&pool), rayon::current_num_threads), 3);
+        assert_eq!(pool.install(|| on_pool(&alone, None, rayon::current_num_threads)), 3);
+    }
+}

@@ -231,7 +231,8 @@ impl Array {
     }
 
     fn rule(&self, hold: bool) -> (u64, f64, u64) {
-        (self.interval(hold), 1e-4, 120 * self.interval(hold))
+        // In boxes of a few cells sound and the steps from node to node take longer than diffusion.
+        (self.interval(hold), 1e-4, (120 * self.interval(hold)).max(2000))
     }
 
     /// Force per volume of the box that moves the fluid at a Reynolds number 2Ru/ν of about 0.002, over the

@@ -11,6 +11,7 @@ use crate::verify::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample,
 use crate::verify::claims::immersed::{
     Array, OFFSETS, driven, exact, grains, immersed, periodic, plain_suspension, sphere,
 };
+use crate::verify::exact::ExactError;
 use crate::verify::exact::suspension::{cubic_array, walls};
 
 /// τ = 2.
@@ -103,19 +104,26 @@ pub const NORMAL_TO_WALL: Claim = Claim {
     measure: normal,
 };
 
-fn midway(backend: &dyn Backend, ratio: f64) -> Result<Sample, VerifyError> {
+/// Drag of a sphere that moves along two walls. `ratio`: radius over its distance from the nearer one; `share`: this
+/// distance over that of the walls; `reference(ratio)`.
+fn along(
+    backend: &dyn Backend,
+    ratio: f64,
+    share: f64,
+    reference: impl Fn(f64) -> Result<f64, ExactError>,
+) -> Result<Sample, VerifyError> {
     const RADIUS: f64 = 3.0;
-    let h = (2.0 * RADIUS / ratio).round() as usize;
-    let ratio = 2.0 * RADIUS / h as f64;
+    let h = (RADIUS / (share * ratio)).round() as usize;
+    let ratio = RADIUS / (share * h as f64);
     // The flow that the images of the sphere make between the walls falls like the area of the box.
     let boxes = [2 * h, 3 * h];
     let mut factors = [0.0; 2];
     for (factor, wide) in factors.iter_mut().zip(boxes) {
-        *factor = between(backend, RADIUS, [wide, wide, h], (0.5 * h as f64, 0))?;
+        *factor = between(backend, RADIUS, [wide, wide, h], (share * h as f64, 0))?;
     }
     let [near, far] = boxes.map(|w| (w * w) as f64);
     let limit = (factors[1] * far - factors[0] * near) / (far - near);
-    Ok(Sample::relative(ratio, limit, exact(walls::midway_between_walls(ratio))?)
+    Ok(Sample::relative(ratio, limit, exact(reference(ratio))?)
         .with("in a box of twice the distance", factors[0])
         .with("in a box of three times the distance", factors[1]))
 }
@@ -138,5 +146,20 @@ pub const BETWEEN_WALLS: Claim = Claim {
                   third of it",
     },
     kind: Kind::Verification,
-    measure: midway,
+    measure: |backend, ratio| along(backend, ratio, 0.5, walls::midway_between_walls),
+};
+
+/// Faxén, nearer to one wall.
+pub const NEAR_A_WALL: Claim = Claim {
+    id: "sphere-along-a-wall",
+    title: "A sphere moving along a wall, with another three times as far away, has Faxen's drag",
+    tags: &["C1", "C2"],
+    measures: "as `sphere-between-walls`, at a quarter of the distance of the walls",
+    reference: Reference { source: "Faxen 1922; Happel & Brenner, eq. 7-4.28", uncertainty: 5e-3 },
+    metric: Metric::Relative,
+    ladder: Ladder { parameter: "radius over distance from the wall", short: &[0.5], full: &[0.5, 0.375] },
+    order: None,
+    tolerance: Tolerance { value: 0.06, at: Rung::Every, because: "as `sphere-between-walls`" },
+    kind: Kind::Verification,
+    measure: |backend, ratio| along(backend, ratio, 0.25, walls::quarter_between_walls),
 };
