@@ -92,9 +92,13 @@ pub(super) fn bless(
     for (id, record) in records {
         write(&golden.path(Shelf::Records, id), &record)?;
     }
+    let mut grown = Vec::new();
     for (exhibit, record) in &results.exhibits {
         let Ok(record) = record else { continue };
         let old = golden.exhibit(exhibit.id, exhibit.timed)?;
+        if record.full && old.as_ref().is_some_and(|old| !old.full) {
+            grown.push(format!("- `{}`: full size instead of its short form", exhibit.id));
+        }
         // A short form does not replace a full one.
         if record.full || old.is_none_or(|old| !old.full) {
             let shelf = if exhibit.timed { Shelf::Measured } else { Shelf::Exhibits };
@@ -104,7 +108,7 @@ pub(super) fn bless(
     for (mutant, record) in &results.mutants {
         write(&golden.path(Shelf::Mutants, mutant.id), record)?;
     }
-    let lines: Vec<String> = changes.iter().filter_map(Change::line).collect();
+    let lines: Vec<String> = changes.iter().filter_map(Change::line).chain(grown).collect();
     log(study, golden, options, reason, &lines)?;
     println!("Blessed; {} of {} results new or changed.", lines.len(), changes.len());
     Ok(true)
