@@ -115,8 +115,8 @@ impl Coverage {
         cells
     }
 
-    /// Looks at the grains that have moved far enough, on the threads of the pool it is called in. `balls(grain)`: its spheres; `moved(grain, seen)`: how far the
-    /// farthest of them is from where it was at the last look.
+    /// Looks at the grains that have moved far enough, on the threads of the pool it is called in. `balls(grain)`: its
+    /// spheres; `moved(grain, seen)`: how far the farthest of them is from where it was at the last look.
     pub fn update(
         &mut self,
         setup: &Setup,
