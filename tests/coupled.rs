@@ -335,3 +335,45 @@ fn many_gaps_of_one_grain_share_what_a_step_can_take() {
     // gaps decays by a percent per step.
     assert!(last < 1e-3 * first, "{first:e} to {last:e}");
 }
+
+/// What lubrication does to a grain it does, reversed, to the wall: a sphere pressed towards a plane by its motion alone.
+#[test]
+fn exact_lubrication_pushes_the_wall_back() {
+    use lahar::coupling::Suspension;
+    use lahar::dem::{self, V3};
+    use lahar::rheology::Law;
+    use lahar::solver::choose::Best;
+    use lahar::solver::run::Backend;
+    use lahar::solver::setup::{Face, Setup};
+    use lahar::units::Units;
+
+    let grain = dem::Material { name: "grain".into(), density_kg_m3: 1e3, young_pa: 1.0, poisson: 0.25 };
+    let mut grains = dem::Setup::new(dem::Materials::single(grain, dem::PairProperties::default()));
+    let ball = |x: f64, gap: f64| dem::Grain::sphere(3.0, V3::new(x, 8.2, 3.0 + gap), 0);
+    let down = V3::new(1e-4, 0.0, -1e-3);
+    grains.grains = vec![ball(4.3, 0.1).moving(down), ball(12.4, 0.3).moving(down)];
+    let floor = dem::Surface::Plane { point: V3::zeros(), normal: V3::z() };
+    grains.walls.push(dem::Wall::fixed("floor", floor, 0));
+    grains.period = dem::Period([Some(16.0), Some(16.0), None]);
+    let mut suspension = Suspension::new(grains, Units::new(1.0, 1.0, 1.0));
+    suspension.sub_steps = 4;
+    let mut setup = Setup::periodic([16, 16, 16], Law::Newtonian { mu: 0.5 });
+    setup.faces[2] = [Face::NoSlip; 2];
+    setup.grains = Some(std::sync::Arc::new(suspension));
+    let mut run = Best.start(&setup).unwrap_or_else(|error| panic!("{error}"));
+    for _ in 0..5 {
+        run.advance(1).unwrap_or_else(|error| panic!("{error:?}"));
+        let grains = run.grains().expect("grains");
+        let on_wall = grains.lubrication_on_wall(0);
+        let on_grains = grains
+            .contact_loads()
+            .iter()
+            .fold([0.0; 3], |sum: [f64; 3], f| std::array::from_fn(|a| sum[a] + f[a]));
+        assert!(on_wall.z < -0.5, "{on_wall}");
+        // The grains' share is found from a change of momentum of 1e-4 of the momentum itself: 12 digits.
+        for a in 0..3 {
+            assert!((on_wall[a] + on_grains[a]).abs() < 1e-9 * on_wall.norm(), "{on_wall} {on_grains:?}");
+        }
+        assert_eq!(grains.lubrication_on_wall(1), V3::zeros());
+    }
+}

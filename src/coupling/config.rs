@@ -63,9 +63,12 @@ pub struct Lubrication {
 }
 
 impl Default for Lubrication {
-    /// Two thirds of a cell for half-way links (Nguyen & Ladd 2002), a thousandth of a cell.
+    /// 0.74 and a thousandth of a cell.
+    ///
+    /// Nguyen & Ladd 2002 fitted two thirds to their links; fitted to those here (claim `lubrication-approach`), whole
+    /// forces at R = 4 and 6 cells lie within 5 % of the exact ones below 0.74 cells, with two thirds only within 6 %.
     fn default() -> Self {
-        Self { cutoff: 2.0 / 3.0, smallest_gap: 1e-3, tangential: true }
+        Self { cutoff: 0.74, smallest_gap: 1e-3, tangential: true }
     }
 }
 

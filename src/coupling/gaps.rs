@@ -69,6 +69,8 @@ struct Acting {
     friction: Friction,
     /// Grain and place of the member's centre relative to the grain's, m; the second `None` for a wall.
     sides: [Option<(usize, V3)>; 2],
+    /// Which wall, if one.
+    wall: Option<usize>,
 }
 
 /// Gaps of a run.
@@ -85,6 +87,8 @@ pub struct Gaps {
     walls: Vec<(usize, usize)>,
     /// Gaps whose friction was limited, so far.
     limited: u64,
+    /// Sum over the sub-steps of a step of the forces on each wall, N.
+    on_walls: Vec<V3>,
 }
 
 impl Gaps {
@@ -98,7 +102,13 @@ impl Gaps {
             pairs: Vec::new(),
             walls: Vec::new(),
             limited: 0,
+            on_walls: Vec::new(),
         }
+    }
+
+    /// Force of the gaps on wall `k`, sum over the grains' steps in the last step of the fluid, N.
+    pub fn on_wall(&self, k: usize) -> V3 {
+        self.on_walls.get(k).copied().unwrap_or_default()
     }
 
     /// How often the friction of a gap was limited to what the time step allows.
@@ -141,6 +151,8 @@ impl Gaps {
         }
         self.walls.clear();
         let scenery = dem.scenery();
+        self.on_walls.clear();
+        self.on_walls.resize(scenery.walls.len(), V3::zeros());
         let mut found = Vec::new();
         for (k, m) in members.iter().enumerate().filter(|(_, m)| m.inverse_mass > 0.0) {
             for wall in 0..scenery.walls.len() {
@@ -172,7 +184,7 @@ impl Gaps {
         let mut acting = self.between_grains(dem, config, wet);
         self.beside_walls(dem, config, wet, &mut acting);
         let shares = shares(dem.bodies(), config, &acting);
-        for Acting { meeting, friction, sides } in &acting {
+        for Acting { meeting, friction, sides, wall } in &acting {
             let share = |side: &Option<(usize, V3)>| side.map_or(1.0, |(body, _)| shares[body]);
             let share = share(&sides[0]).min(share(&sides[1]));
             let friction = if share < 1.0 {
@@ -189,6 +201,9 @@ impl Gaps {
                 loads[body].0 += f;
                 // A member of a clump is off the centre of its grain; periodic images are taken away with it.
                 loads[body].1 += t + arm.cross(&f);
+            }
+            if let Some(sum) = wall.and_then(|wall| self.on_walls.get_mut(wall)) {
+                *sum -= f;
             }
         }
     }
@@ -227,7 +242,7 @@ impl Gaps {
             };
             let friction = self.friction(&meeting, config);
             let side = |m: &Member| Some((m.body as usize, m.position - centres[m.body as usize]));
-            acting.push(Acting { meeting, friction, sides: [side(a), side(b)] });
+            acting.push(Acting { meeting, friction, sides: [side(a), side(b)], wall: None });
         }
         acting
     }
@@ -273,6 +288,7 @@ impl Gaps {
                     meeting,
                     friction,
                     sides: [Some((body, m.position - centres[body])), None],
+                    wall: Some(wall),
                 });
             }
         }

@@ -204,6 +204,13 @@ impl Immersed {
         self.gaps.as_ref().map_or(0, Gaps::limited)
     }
 
+    /// Mean force of lubrication on a wall of the grains in the last step, N.
+    #[must_use]
+    pub fn lubrication_on_wall(&self, wall: usize) -> V3 {
+        let sum = self.gaps.as_ref().map_or_else(V3::zeros, |gaps| gaps.on_wall(wall));
+        sum / f64::from(self.config.sub_steps.max(1))
+    }
+
     /// How often a grain's cells were looked at again, so far.
     #[must_use]
     pub fn looks(&self) -> u64 {

@@ -18,7 +18,7 @@ use crate::solver::run::{Fields, Run};
 use crate::solver::setup::{Face, Setup};
 use crate::units::Units;
 
-/// Force of contacts on a solid since the last row, and since time 0.
+/// Force of contacts and lubrication on a solid since the last row, and since time 0.
 #[derive(Clone, Copy, Debug, Default)]
 struct Contacts {
     /// Sum over steps, N.
@@ -128,11 +128,12 @@ impl<'a> GrainPart<'a> {
         self.ids.get(grain as usize).copied().unwrap_or(grain)
     }
 
-    /// Adds up the contact forces of a step.
+    /// Adds up the forces of contacts and of the gaps before them in a step.
     pub fn sample(&mut self, run: &dyn Run) {
         let Some(grains) = run.grains() else { return };
         for (of, (_, walls)) in self.contacts.iter_mut().zip(&self.coupled.grains.walls.solids) {
-            let force = walls.iter().fold(V3::zeros(), |sum, &wall| sum + grains.dem().force_on_wall(wall).0);
+            let on = |wall: usize| grains.dem().force_on_wall(wall).0 + grains.lubrication_on_wall(wall);
+            let force = walls.iter().fold(V3::zeros(), |sum, &wall| sum + on(wall));
             of.sum += force;
             of.steps += 1;
             of.peak = of.peak.max(force.norm());

@@ -79,7 +79,7 @@ pub enum OffWord {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LubricationRules {
-    /// Gap below which it acts, cells; two thirds when not given.
+    /// Gap below which it acts, cells; 0.74 when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cutoff_cells: Option<f64>,
     /// Smallest gap that counts, cells: roughness; a thousandth when not given.

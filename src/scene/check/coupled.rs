@@ -40,7 +40,7 @@ fn coupling(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
         let default = crate::coupling::Lubrication::default();
         let cutoff = lubrication.cutoff_cells.unwrap_or(default.cutoff);
         let (key, because) = ("lubrication.cutoff_cells", "wider gaps are resolved, and would count twice");
-        range(key, cutoff, "cells", [0.01, 2.0], because, "leave it out for 0.667")?;
+        range(key, cutoff, "cells", [0.01, 2.0], because, "leave it out for 0.74")?;
         let least = lubrication.smallest_gap_cells.unwrap_or(default.smallest_gap);
         let (key, because) =
             ("lubrication.smallest_gap_cells", "the force grows like 1/gap, up to the cut-off");

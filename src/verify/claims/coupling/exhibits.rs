@@ -13,8 +13,8 @@ use crate::verify::exhibit::{Exhibit, ExhibitData, Table};
 /// Lubrication.
 pub const APPROACH: Exhibit = Exhibit {
     id: "lubrication-parts",
-    caption: "Force between two approaching spheres: what the lattice carries, what lubrication adds below its cut-off of 2/3 of a cell, and \
-              the exact series; mean over six places of the pair within a cell.",
+    caption: "Force between two approaching spheres: what the lattice carries, what lubrication adds below its cut-off of 0.74 cells, and \
+              the exact series; mean over 128 places of the pair within a cell.",
     timed: false,
     run: parts,
 };
@@ -50,7 +50,7 @@ fn parts(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> 
     let rows = approach::table(backend, 4.0, gaps)?;
     enter(4.0, &rows);
     for &radius in radii.iter().filter(|&&radius| radius != 4.0) {
-        enter(radius, &approach::table(backend, radius, &[0.1, 0.3, 0.5, 0.7, 1.0])?);
+        enter(radius, &approach::table(backend, radius, &[0.1, 0.3, 0.5, 0.7, 0.8, 1.0, 1.5, 2.0])?);
     }
     let column = |f: &dyn Fn(&[f64; 5]) -> f64| rows.iter().map(|r| [r[0], f(r)]).collect::<Vec<_>>();
     let plot = Plot::new(

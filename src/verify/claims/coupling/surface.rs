@@ -5,9 +5,11 @@ use std::sync::Arc;
 use crate::coupling::{GrainWall, Mutant as Wrong, Suspension};
 use crate::dem::packing::Random;
 use crate::dem::{Grain, Surface, V3, Wall};
+use crate::rheology::Law;
 use crate::solver::run::Backend;
 use crate::solver::setup::{BodyForce, Face, FreeSurface, Setup};
 use crate::verify::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::verify::claims::free_surface::support::tank;
 use crate::verify::claims::immersed::{UNITS, grains, immersed, numerics, periodic, sphere, volume};
 
 /// A pool with walls below and above, periodic sides, filled to `depth` cells where no grain is, and grains in it.
@@ -128,6 +130,66 @@ pub const BOOKS: Claim = Claim {
     },
     kind: Kind::Verification,
     measure: stir,
+};
+
+/// H13: a dam break of 64 × 8 × 32 cells over and with 20 spheres, ten in the column and ten on the floor before it.
+fn dam_break(backend: &dyn Backend, steps: f64) -> Result<Sample, VerifyError> {
+    let (extents, gravity) = ([64, 8, 32], 2e-5);
+    let column = |[i, _, k]: [usize; 3]| if i < 20 && k < 24 { 1.0 } else { 0.0 };
+    let mut setup = tank(extents, Law::Newtonian { mu: 0.05 }, gravity, column);
+    setup.faces[1] = [Face::Periodic; 2];
+    // No two are placed alike relative to the grid.
+    let spheres = (0..20).map(|k| {
+        let (row, shift) = ((k / 2) % 5, 0.037 * k as f64);
+        let y = if k % 2 == 0 { 2.0 } else { 6.0 } + shift;
+        let inside = k < 10;
+        let [x, z] = if inside {
+            [2.5 + 3.7 * row as f64, 6.0 + 3.0 * row as f64]
+        } else {
+            [26.0 + 6.0 * row as f64, 1.8]
+        };
+        sphere(1.8, [x + shift, y, z])
+    });
+    let mut dem = grains(1.5, spheres.collect());
+    dem.materials.list[0].young_pa = 0.1;
+    dem.period.0[1] = Some(extents[1] as f64);
+    dem.gravity = V3::new(0.0, 0.0, -gravity);
+    let wall = |name: &str, axis: usize, side: f64| {
+        let normal = V3::ith(axis, side);
+        let point = if side > 0.0 { V3::zeros() } else { V3::ith(axis, extents[axis] as f64) };
+        Wall::fixed(name, Surface::Plane { point, normal }, 0)
+    };
+    dem.walls =
+        vec![wall("floor", 2, 1.0), wall("lid", 2, -1.0), wall("back", 0, 1.0), wall("front", 0, -1.0)];
+    setup.grains = Some(Arc::new(Suspension { sub_steps: 10, ..Suspension::new(dem, UNITS) }));
+    let mut run = backend.start(&setup)?;
+    let mut fastest = 0.0_f64;
+    for _ in 0..10 {
+        run.advance((steps / 10.0) as u64)?;
+        let grains = immersed(run.as_ref())?;
+        let speed = |grain| grains.motion(grain)[..3].iter().map(|u| u * u).sum::<f64>().sqrt();
+        fastest = (0..grains.grains()).map(speed).fold(fastest, f64::max);
+    }
+    let ledger = run.ledger().ok_or_else(|| numerics("dam break", "no ledger"))?;
+    Ok(Sample::absolute(steps, ledger.mass_residual, 0.0)
+        .with("conversions", ledger.conversions as f64)
+        .with("fastest grain (cells per step)", fastest))
+}
+
+/// H13 with grains.
+pub const DAM_BREAK: Claim = Claim {
+    id: "dam-break-mass-with-grains",
+    title: "A dam break that carries twenty spheres away keeps its mass to rounding",
+    tags: &["C3", "F5"],
+    measures: "mass + what grains have taken − initial mass, over the initial mass; 64 × 8 × 32 cells, Newtonian, τ = 0.65, spheres of 1.8 \
+               cells and 1.5 times the density",
+    reference: Reference { source: "conservation of mass", uncertainty: 0.0 },
+    metric: Metric::Absolute,
+    ladder: Ladder { parameter: "steps", short: &[500.0], full: &[500.0, 5000.0, 50_000.0] },
+    order: None,
+    tolerance: Tolerance { value: 1e-12, at: Rung::Every, because: "HARD_CASES H13" },
+    kind: Kind::Verification,
+    measure: dam_break,
 };
 
 fn float(backend: &dyn Backend, radius: f64) -> Result<Sample, VerifyError> {

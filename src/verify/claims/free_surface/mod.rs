@@ -10,7 +10,7 @@ mod heap;
 mod loads;
 mod mutants;
 mod pool;
-mod support;
+pub(super) mod support;
 mod symmetry;
 mod tilted;
 
