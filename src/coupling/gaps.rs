@@ -8,6 +8,7 @@ use crate::dem::walls::{self, Near};
 use crate::dem::{Dem, V3};
 use crate::rheology::Law;
 use crate::solver::setup::Setup;
+use crate::units::Units;
 use std::f64::consts::PI;
 
 /// How far a member may move before the list is made anew, cells.
@@ -37,6 +38,26 @@ struct Meeting {
     gap: f64,
     /// 1/(1/m₁ + 1/m₂), lattice units.
     mass: f64,
+}
+
+/// SI to lattice units.
+struct Scales {
+    length: f64,
+    speed: f64,
+    spin: f64,
+    /// Of 1/m.
+    inverse_mass: f64,
+}
+
+impl Scales {
+    fn of(units: &Units) -> Self {
+        Self {
+            length: 1.0 / units.dx_m,
+            speed: 1.0 / units.velocity_unit(),
+            spin: units.dt_s,
+            inverse_mass: units.rho0_kg_per_m3 * units.dx_m * units.dx_m * units.dx_m,
+        }
+    }
 }
 
 /// Force on the first, torques on both, lattice units.
@@ -214,9 +235,7 @@ impl Gaps {
         config: &Suspension,
         wet: &impl Fn(usize) -> bool,
     ) -> Vec<Acting> {
-        let units = &config.units;
-        let (length, speed, rate) = (1.0 / units.dx_m, 1.0 / units.velocity_unit(), units.dt_s);
-        let inverse_mass = units.rho0_kg_per_m3 * units.dx_m * units.dx_m * units.dx_m;
+        let scales = Scales::of(&config.units);
         let members = dem.members();
         let centres = &dem.bodies().position;
         let mut acting = Vec::new();
@@ -226,17 +245,17 @@ impl Gaps {
             let (a, b) = (&members[ia as usize], &members[ib as usize]);
             let d = self.apart(p, a, b);
             let distance = d.norm();
-            let inverse = (a.inverse_mass + b.inverse_mass) * inverse_mass;
-            let gap = (distance - a.radius - b.radius) * length;
+            let inverse = (a.inverse_mass + b.inverse_mass) * scales.inverse_mass;
+            let gap = (distance - a.radius - b.radius) * scales.length;
             let dry = !(wet(a.body as usize) && wet(b.body as usize));
             if gap >= self.rules.cutoff || distance == 0.0 || inverse == 0.0 || dry {
                 continue;
             }
             let meeting = Meeting {
                 normal: d / distance,
-                velocity: (a.velocity - b.velocity) * speed,
-                spins: [a.spin * rate, b.spin * rate],
-                radii: [a.radius * length, b.radius * length],
+                velocity: (a.velocity - b.velocity) * scales.speed,
+                spins: [a.spin * scales.spin, b.spin * scales.spin],
+                radii: [a.radius * scales.length, b.radius * scales.length],
                 gap,
                 mass: 1.0 / inverse,
             };
@@ -254,9 +273,7 @@ impl Gaps {
         wet: &impl Fn(usize) -> bool,
         acting: &mut Vec<Acting>,
     ) {
-        let units = &config.units;
-        let (length, speed, rate) = (1.0 / units.dx_m, 1.0 / units.velocity_unit(), units.dt_s);
-        let inverse_mass = units.rho0_kg_per_m3 * units.dx_m * units.dx_m * units.dx_m;
+        let (units, scales) = (&config.units, Scales::of(&config.units));
         let members = dem.members();
         let centres = &dem.bodies().position;
         let mut found = Vec::new();
@@ -273,11 +290,11 @@ impl Gaps {
                 let (own, pose) = (&dem.scenery().walls[wall], &dem.scenery().poses[wall]);
                 let meeting = Meeting {
                     normal: place.normal,
-                    velocity: (m.velocity - walls::surface_velocity(own, pose, &point)) * speed,
-                    spins: [m.spin * rate, V3::zeros()],
-                    radii: [m.radius * length, f64::INFINITY],
-                    gap: (place.distance - m.radius) * length,
-                    mass: 1.0 / (m.inverse_mass * inverse_mass),
+                    velocity: (m.velocity - walls::surface_velocity(own, pose, &point)) * scales.speed,
+                    spins: [m.spin * scales.spin, V3::zeros()],
+                    radii: [m.radius * scales.length, f64::INFINITY],
+                    gap: (place.distance - m.radius) * scales.length,
+                    mass: 1.0 / (m.inverse_mass * scales.inverse_mass),
                 };
                 if meeting.gap >= self.rules.cutoff {
                     continue;

@@ -42,9 +42,9 @@ pub static STUDY: Study = Study {
     mutants: &[mutants::WALL_FACTOR, mutants::LUBRICATION, mutants::REVERSED, mutants::COVERED_MASS],
     limits: &[
         "Forces between approaching spheres are made of what the lattice carries and of a lubrication force that begins at 0.74 cells, a \
-         cut-off fitted to these forces at R = 4 and 6 cells. The mean over places within a cell is within 5 % of the exact force \
-         at R = 4, but single places scatter by up to 12 %. At R = 2.5 it is some 6 % too small at all gaps, as the drag is; \
-         at R = 6 it is 6 % too large at a gap of one cell, which the lattice carries alone: \
+         cut-off fitted to these forces at R = 4 and 6 cells. There the mean over places within a cell is within 5 % of the \
+         exact force (HARD_CASES H16), but single places scatter by up to 12 and 14 %. At R = 2.5 it is 3 to 7 % too small at \
+         all gaps, as the drag is. At R = 6 it is 5 % too large at a gap of one cell, which the lattice carries alone: \
          lines with one fluid cell between two surfaces are half-way links.",
         "The lattice has an undamped motion of period two (probably its staggered momentum). A plate that nearly fills a slot shows it, and \
          lubrication with less than four sub-steps makes it grow by 1 to 3 % per step; `plan` takes five to eight there.",

@@ -2,16 +2,11 @@
 
 use std::f64::consts::PI;
 
-use super::arrays::TRT;
-use super::random::{RADIUS, scatter};
-use crate::coupling::{GrainWall, Suspension};
-use crate::dem::V3;
+use super::random::{RADIUS, RandomBox};
 use crate::output::plot::{Axis, Plot, Series};
-use crate::rheology::Law;
 use crate::solver::run::Backend;
-use crate::solver::setup::BodyForce;
 use crate::verify::claim::VerifyError;
-use crate::verify::claims::immersed::{UNITS, exact, grains, immersed, periodic, sphere, volume};
+use crate::verify::claims::immersed::{exact, volume};
 use crate::verify::exact::suspension::settling::{
     garside_al_dibouni_exponent, richardson_zaki, richardson_zaki_exponent,
 };
@@ -29,35 +24,19 @@ const WAY: [f64; 2] = [1.0, 3.0];
 
 /// Mean speed over that of one sphere by the standard drag curve, without net volume flux, averaged over a fall.
 fn fall(backend: &dyn Backend, (c, count): (f64, usize), seed: u64) -> Result<f64, VerifyError> {
-    let n = libm::cbrt(count as f64 * volume(RADIUS) / c).round();
-    let balls = scatter(count, n, seed)?.into_iter().map(|x| sphere(RADIUS, x)).collect();
     let alone = REYNOLDS * MU / (2.0 * RADIUS);
     let drag = 6.0 * PI * MU * RADIUS * alone * exact(DragCurve::SchillerNaumann.ratio(REYNOLDS))?;
     let gravity = drag / ((DENSITY - 1.0) * volume(RADIUS));
-    let mut spheres = grains(DENSITY, balls);
-    spheres.gravity = V3::new(0.0, 0.0, -gravity);
-    let suspension = Suspension {
-        wall: GrainWall::CentralLinear,
-        balanced: [false, false, true],
-        sub_steps: 4,
-        ..Suspension::new(spheres, UNITS)
-    };
-    let mut setup = periodic([n as usize; 3], suspension);
-    setup.fluids = vec![Law::Newtonian { mu: MU }];
-    setup.collision = TRT;
-    setup.force = BodyForce::Constant([0.0, 0.0, -gravity]);
-    let mut run = backend.start(&setup)?;
+    let random = RandomBox { c, count, seed, density: DENSITY, mu: MU, gravity, sub_steps: 4 };
+    let mut run = backend.start(&random.setup()?)?;
     let expected = alone * exact(richardson_zaki(c, exact(richardson_zaki_exponent(REYNOLDS))?))?;
-    let [before, during] = WAY.map(|edges| (edges * n / expected).ceil() as u64);
+    let [before, during] = WAY.map(|edges| (edges * random.edge() / expected).ceil() as u64);
     run.advance(before)?;
     let looks = 200;
     let mut sum = 0.0;
     for _ in 0..looks {
         run.advance(during.div_ceil(looks))?;
-        let grains = immersed(run.as_ref())?;
-        let fall: f64 = (0..count).map(|i| grains.motion(i)[2]).sum();
-        let flux = (run.totals().momentum[2] + volume(RADIUS) * fall) / (n * n * n);
-        sum += flux - fall / count as f64;
+        sum += random.speed(run.as_ref())?;
     }
     Ok(sum / looks as f64 / alone)
 }

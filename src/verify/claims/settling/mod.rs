@@ -56,7 +56,7 @@ pub static STUDY: Study = Study {
          viscosity of 0.5 (0.4 % at R = 5), by 0.1 % at 0.1, without end in 3000 steps.",
         "Random boxes hold few spheres placed at random, not in equilibrium; the correction for the size of the box is itself of \
          leading order only. At a Reynolds number of 10 there is none: their settling follows the exponent of Richardson and Zaki \
-         within its standard error (3.56 +- 0.05, the law has 3.53) with a prefactor of 0.79 +- 0.01, so that they lie 22 % below it.",
+         within about one standard error (3.59 +- 0.05, the law has 3.53) with a prefactor of 0.79 +- 0.01, so that they lie 22 % below it.",
         "The experiment of ten Cate and others is repeated with a sphere of 4.2 cells across.",
         "The claim about ten Cate's experiment uses two relaxation times, chosen after seeing the default operator: at Re = 31.9 \
          (tau = 0.51, 4.2 cells across) that one reaches 0.109 m/s, two relaxation times 0.130 and, with 6.3 cells, 0.120; measured \

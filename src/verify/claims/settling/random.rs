@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use super::arrays::TRT;
-use crate::coupling::{GrainWall, Lubrication, Suspension};
+use crate::coupling::{GrainWall, Suspension};
 use crate::dem::V3;
 use crate::dem::packing::Random;
 use crate::output::plot::{Axis, Plot, Series};
 use crate::rheology::Law;
-use crate::solver::run::Backend;
-use crate::solver::setup::BodyForce;
+use crate::solver::run::{Backend, Run};
+use crate::solver::setup::{BodyForce, Setup};
 use crate::verify::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::verify::claims::immersed::{UNITS, exact, grains, immersed, numerics, periodic, sphere, volume};
 use crate::verify::exact::suspension::settling::{
@@ -43,34 +43,83 @@ pub fn scatter(count: usize, edge: f64, seed: u64) -> Result<Vec<[f64; 3]>, Veri
     Err(numerics("random box", "no room"))
 }
 
+/// A periodic cube of fluid with spheres at random that are about to fall without net volume flux.
+#[derive(Clone, Copy, Debug)]
+pub struct RandomBox {
+    /// Solid fraction asked for: the edge is a whole number of cells.
+    pub c: f64,
+    /// Spheres.
+    pub count: usize,
+    /// Of the places.
+    pub seed: u64,
+    /// Density of the spheres over that of the fluid.
+    pub density: f64,
+    /// Viscosity, lattice units.
+    pub mu: f64,
+    /// Weight per mass, lattice units.
+    pub gravity: f64,
+    /// Steps of the grains in one of the fluid.
+    pub sub_steps: u32,
+}
+
+impl RandomBox {
+    /// Edge, cells.
+    pub fn edge(&self) -> f64 {
+        edge(self.c, self.count)
+    }
+
+    /// What a backend is given.
+    ///
+    /// # Errors
+    /// As [`scatter`].
+    pub fn setup(&self) -> Result<Setup, VerifyError> {
+        let n = self.edge();
+        let balls = scatter(self.count, n, self.seed)?.into_iter().map(|x| sphere(RADIUS, x)).collect();
+        let mut spheres = grains(self.density, balls);
+        spheres.gravity = V3::new(0.0, 0.0, -self.gravity);
+        let suspension = Suspension {
+            wall: GrainWall::CentralLinear,
+            balanced: [false, false, true],
+            sub_steps: self.sub_steps,
+            ..Suspension::new(spheres, UNITS)
+        };
+        let mut setup = periodic([n as usize; 3], suspension);
+        setup.fluids = vec![Law::Newtonian { mu: self.mu }];
+        setup.collision = TRT;
+        setup.force = BodyForce::Constant([0.0, 0.0, -self.gravity]);
+        Ok(setup)
+    }
+
+    /// Mean speed of fall relative to the volume flux, cells per step.
+    ///
+    /// # Errors
+    /// The backend has forgotten the spheres.
+    pub fn speed(&self, run: &dyn Run) -> Result<f64, VerifyError> {
+        let (grains, n) = (immersed(run)?, self.edge());
+        let fall: f64 = (0..self.count).map(|i| grains.motion(i)[2]).sum();
+        let flux = (run.totals().momentum[2] + volume(RADIUS) * fall) / (n * n * n);
+        Ok(flux - fall / self.count as f64)
+    }
+}
+
+/// Edge of the cube, a whole number of cells, that `count` spheres fill to the share `c`.
+fn edge(c: f64, count: usize) -> f64 {
+    libm::cbrt(count as f64 * volume(RADIUS) / c).round()
+}
+
 /// Mean settling speed over that of one sphere, of one realisation, without net volume flux.
 fn realisation(backend: &dyn Backend, (c, count): (f64, usize), seed: u64) -> Result<f64, VerifyError> {
-    let n = libm::cbrt(count as f64 * volume(RADIUS) / c).round();
-    let balls = scatter(count, n, seed)?.into_iter().map(|x| sphere(RADIUS, x)).collect();
     // One sphere at Re = 0.005: it moves a thousandth of its radius.
     let single = 0.005 * MU / (2.0 * RADIUS);
     let gravity = 6.0 * PI * MU * RADIUS * single / volume(RADIUS);
-    let mut spheres = grains(2.0, balls);
-    spheres.gravity = V3::new(0.0, 0.0, -gravity);
-    let suspension = Suspension {
-        wall: GrainWall::CentralLinear,
-        lubrication: Some(Lubrication::default()),
-        balanced: [false, false, true],
-        ..Suspension::new(spheres, UNITS)
-    };
-    let mut setup = periodic([n as usize; 3], suspension);
-    setup.fluids = vec![Law::Newtonian { mu: MU }];
-    setup.collision = TRT;
-    setup.force = BodyForce::Constant([0.0, 0.0, -gravity]);
-    let mut run = backend.start(&setup)?;
+    let random = RandomBox { c, count, seed, density: 2.0, mu: MU, gravity, sub_steps: 1 };
+    let mut run = backend.start(&random.setup()?)?;
     // Six times the diffusion across the box, or the relaxation of a sphere.
+    let n = random.edge();
     let across = n * n / (4.0 * PI * PI * MU);
     let own = 3.0 * volume(RADIUS) / (6.0 * PI * MU * RADIUS);
     run.advance((6.0 * across.max(own)).ceil() as u64)?;
-    let grains = immersed(run.as_ref())?;
-    let fall: f64 = (0..count).map(|i| grains.motion(i)[2]).sum();
-    let flux = (run.totals().momentum[2] + volume(RADIUS) * fall) / (n * n * n);
-    Ok((flux - fall / count as f64) / single)
+    Ok(random.speed(run.as_ref())? / single)
 }
 
 /// Mean and standard error over `boxes` realisations, and the exact fraction of the box.
@@ -79,7 +128,7 @@ fn ensemble(
     (c, count): (f64, usize),
     boxes: u64,
 ) -> Result<(f64, f64, f64), VerifyError> {
-    let n = libm::cbrt(count as f64 * volume(RADIUS) / c).round();
+    let n = edge(c, count);
     let fraction = count as f64 * volume(RADIUS) / (n * n * n);
     let all = (1..=boxes)
         .map(|seed| realisation(backend, (c, count), seed))
