@@ -382,6 +382,26 @@ fn parity_of_grains_in_a_fluid() {
     }
 }
 
+/// In single precision too, the bits do not depend on instruction set or number of threads.
+#[test]
+fn parity_of_grains_in_single_precision_among_variants() {
+    let baseline = Fast { instructions: Some(Instructions::Baseline) };
+    for precision in [Precision::Single, Precision::SingleStorage] {
+        for gas in [false, true] {
+            let setup =
+                with_grains(gas, GrainWall::CentralLinear, Law::Bingham { sigma0: 1e-5, mu: 0.08 }, 4);
+            let setup = Setup { precision, ..setup };
+            compare_to(
+                &baseline,
+                &format!("grains, {}, gas {gas}", precision.name()),
+                &setup,
+                60,
+                &variants(),
+            );
+        }
+    }
+}
+
 #[test]
 fn grains_that_leave_give_their_cells_back() {
     let setup = with_grains(true, GrainWall::HalfWay, Law::Newtonian { mu: 0.1 }, 3);
