@@ -389,7 +389,7 @@ fn parity_of_grains_in_single_precision_among_variants() {
     for precision in [Precision::Single, Precision::SingleStorage] {
         for gas in [false, true] {
             let setup =
-                with_grains(gas, GrainWall::CentralLinear, Law::Bingham { sigma0: 1e-5, mu: 0.08 }, 4);
+                with_grains(gas, GrainWall::CentralLinear, Law::Bingham { sigma0: 1e-5, mu: 0.08 }, 1);
             let setup = Setup { precision, ..setup };
             compare_to(
                 &baseline,

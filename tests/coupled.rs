@@ -136,6 +136,20 @@ fn plan_warns_of_small_and_of_light_grains() {
 }
 
 #[test]
+fn plan_notes_that_held_grains_creep() {
+    let creeps = |scene: &Scene| {
+        let text = plan(scene).to_string();
+        (text.contains(": held by the yield stress"), text.contains("creep on"))
+    };
+    assert_eq!(creeps(&load("bingham_held")), (true, false));
+    let default = changed("bingham_held", |json| {
+        json.as_object_mut().expect("an object").remove("numerics");
+    });
+    assert_eq!(creeps(&default), (true, true));
+    assert_eq!(creeps(&load("bingham_sinking")), (false, false));
+}
+
+#[test]
 fn plan_prints_grains_and_size_classes() {
     let output = lahar(&["plan", "scenes/coupled/debris_flow.json"]);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));

@@ -172,6 +172,7 @@ pub(super) fn numbers(given: &Given) -> (CoupledNumbers, Vec<String>) {
         shear_rate: rate,
     };
     let (classes, no_bagnold) = classes(dem, units.dx_m, &mixture);
+    let held = yield_number(law, excess, dem.gravity.norm(), diameter) / HELD_ABOVE;
     let numbers = CoupledNumbers {
         grains: n.grains,
         clumps: n.clumps,
@@ -212,7 +213,7 @@ pub(super) fn numbers(given: &Given) -> (CoupledNumbers, Vec<String>) {
         speed_m_per_s: findings.slip,
         speed_lattice: findings.fastest,
         particle_reynolds: density * findings.slip * diameter / viscosity,
-        held: yield_number(law, excess, dem.gravity.norm(), diameter) / HELD_ABOVE,
+        held,
         balanced: coupled.suspension.balanced,
         weightless: std::array::from_fn(|a| coupled.suspension.pressure_gradient[a] != 0.0),
         links: dem.grains.iter().map(|g| LINKS * (g.radius / units.dx_m) * (g.radius / units.dx_m)).sum(),
@@ -221,13 +222,13 @@ pub(super) fn numbers(given: &Given) -> (CoupledNumbers, Vec<String>) {
         shear_rate_per_s: rate,
         classes,
         no_bagnold,
-        notes: notes(scene),
+        notes: notes(scene, held, &setup.collision),
     };
     let warnings = warnings(given, &numbers);
     (numbers, warnings)
 }
 
-fn notes(scene: &Scene) -> Vec<String> {
+fn notes(scene: &Scene, held: f64, collision: &CollisionChoice) -> Vec<String> {
     let faces = scene.domain.boundaries.by_axis();
     let mut keys = Vec::new();
     for (axis, keys_of) in FACE_KEYS.iter().enumerate() {
@@ -237,10 +238,18 @@ fn notes(scene: &Scene) -> Vec<String> {
             }
         }
     }
-    if keys.is_empty() {
-        return Vec::new();
+    let mut notes = Vec::new();
+    if !keys.is_empty() {
+        notes.push(format!("{} open: fluid and grains that pass leave", keys.join(", ")));
     }
-    vec![format!("{} open: fluid and grains that pass leave", keys.join(", "))]
+    if held >= 1.0 && matches!(collision, CollisionChoice::CentralMoment(_)) {
+        notes.push(
+            "grains that the yield stress holds creep on with `central_moment`, at some 1 % of their speed without it; \
+             `trt` in `numerics.collision.operator` leaves a sixth of that or less"
+                .into(),
+        );
+    }
+    notes
 }
 
 fn warnings(given: &Given, n: &CoupledNumbers) -> Vec<String> {
