@@ -74,7 +74,7 @@ pub(in crate::plan) fn table(f: &mut fmt::Formatter<'_>, n: &CoupledNumbers) -> 
     row(f, "added memory", format_args!("{}; about {} links", human(n.bytes), short(n.links)))?;
     row(f, "sphere updates", format_args!("{}", short(n.sphere_updates)))?;
     for note in &n.notes {
-        row(f, "faces", format_args!("{note}"))?;
+        row(f, "note", format_args!("{note}"))?;
     }
     classes(f, n)
 }
