@@ -126,7 +126,7 @@ pub const APPROACH: Claim = Claim {
     metric: Metric::Relative,
     ladder: Ladder {
         parameter: "gap (cells)",
-        short: &[0.1, 0.4],
+        short: &[0.4],
         full: &[0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.66, 0.7, 0.73, 0.75, 0.8, 1.0, 1.5, 2.0],
     },
     order: None,
