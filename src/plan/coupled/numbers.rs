@@ -244,8 +244,8 @@ fn notes(scene: &Scene, held: f64, collision: &CollisionChoice) -> Vec<String> {
     }
     if held >= 1.0 && matches!(collision, CollisionChoice::CentralMoment(_)) {
         notes.push(
-            "grains that the yield stress holds creep on with `central_moment`, at some 1 % of their speed without it; \
-             `trt` in `numerics.collision.operator` leaves a sixth of that or less"
+            "grains that the yield stress holds creep on with `central_moment`, at up to 1 % of their speed without it; \
+             with `trt` in `numerics.collision.operator` they creep several times more slowly"
                 .into(),
         );
     }
