@@ -7,10 +7,10 @@ use lahar::collision::{Collision, CollisionChoice, OddRate};
 use lahar::lane::{Lane, Pack, powers};
 use lahar::lattice::moments::moments;
 use lahar::rheology::{Law, Rheology};
+use lahar::setup::{FlowPoint, Setup};
 use lahar::solver::initial::start;
 use lahar::solver::plain::Plain;
 use lahar::solver::run::Backend;
-use lahar::solver::setup::{FlowPoint, Setup};
 
 const LAWS: [(&str, Law); 4] = [
     ("newtonian", Law::Newtonian { mu: 0.1 }),

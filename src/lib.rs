@@ -1,7 +1,7 @@
 //! lahar: verification-first lattice-Boltzmann reference implementation for yield-stress fluids.
 //!
 //! # The way of a scene
-//! [`scene`] (SI, checked) → [`plan`] (lattice units, what is needed) → [`solver::setup::Setup`] →
+//! [`scene`] (SI, checked) → [`plan`] (lattice units, what is needed) → [`setup::Setup`] →
 //! a [`solver::run::Run`] of some [`solver::run::Backend`] → [`output`]. Two backends give the same bits:
 //! [`solver::plain`] is written to be read, [`solver::fast`] to be fast; `tests/backend_parity.rs` compares them. Claims about the physics are
 //! in [`verify`]; [`report`] turns their records into `REPORT.md`.
@@ -57,18 +57,18 @@ pub mod boundary;
 pub mod collision;
 pub mod coupling;
 pub mod dem;
+pub mod fingerprint;
 pub mod free_surface;
 pub mod geometry;
 pub mod lane;
 pub mod lattice;
 pub mod output;
 pub mod plan;
-pub mod report;
 pub mod rheology;
 pub mod run_grains;
 pub mod run_scene;
 pub mod scene;
+pub mod setup;
 pub mod solver;
 pub mod stability;
 pub mod units;
-pub mod verify;

@@ -10,7 +10,6 @@ use lahar::output::OutputError;
 use lahar::plan::grains::GrainPlan;
 use lahar::plan::target::{self, Target};
 use lahar::plan::{Layout, Plan, PlanError};
-use lahar::report::{self, ReportError, ReportOutcome};
 use lahar::run_grains::{self, Ending, GrainOptions};
 use lahar::run_scene::{self, Options, RunError};
 use lahar::scene::dry::DryScene;
@@ -28,7 +27,7 @@ const IO: u8 = 4;
 #[command(
     name = "lahar",
     version,
-    after_help = "Exit codes: 0 done, 1 report out of date, 2 bad input, 3 run stopped by a guard, 4 input or output failed."
+    after_help = "Exit codes: 0 done, 2 bad input, 3 run stopped by a guard, 4 input or output failed."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -87,12 +86,6 @@ enum Command {
         #[arg(long, value_name = "NAME")]
         only: Option<String>,
     },
-    /// Make REPORT.md from the golden records.
-    Report {
-        /// Only say whether it is up to date.
-        #[arg(long)]
-        check: bool,
-    },
     /// Print the JSON Schema of a scene.
     Schema,
 }
@@ -135,8 +128,6 @@ enum Failure {
     #[error(transparent)]
     Run(#[from] RunError),
     #[error(transparent)]
-    Report(#[from] ReportError),
-    #[error(transparent)]
     Bench(#[from] BenchError),
     #[error(
         "{0}: `--target-error` is about flows, and this scene has no fluid\n  way out: leave it out; `steps_per_contact` sets the accuracy of contacts"
@@ -144,8 +135,6 @@ enum Failure {
     NoTarget(String),
     #[error("cannot write as JSON: {0}")]
     Json(#[from] serde_json::Error),
-    #[error("REPORT.md is not up to date: {0}\n  way out: run `lahar report`")]
-    Stale(String),
     #[error("cannot print: {0}")]
     Print(#[from] std::io::Error),
 }
@@ -161,8 +150,7 @@ impl Failure {
             Self::Bench(BenchError::Stopped { .. } | BenchError::Grains { .. }) => STOPPED,
             Self::Bench(BenchError::Threads(_)) => IO,
             Self::Bench(_) => BAD_INPUT,
-            Self::Stale(_) => 1,
-            Self::Report(_) | Self::Json(_) | Self::Print(_) => IO,
+            Self::Json(_) | Self::Print(_) => IO,
         }
     }
 }
@@ -184,7 +172,6 @@ fn main() -> ExitCode {
         Command::Bench { json, quick, threads, only } => {
             measure(json, &bench::Options { quick, threads: count(threads), only })
         }
-        Command::Report { check } => make_report(check),
         Command::Schema => print(&scene::schema()),
     };
     match result {
@@ -334,17 +321,6 @@ fn measure(json: bool, options: &bench::Options) -> Result<(), Failure> {
         print(&format!("{}\n", serde_json::to_string_pretty(&report)?))
     } else {
         print(&report.to_string())
-    }
-}
-
-fn make_report(check: bool) -> Result<(), Failure> {
-    match report::command(Path::new("."), check)? {
-        ReportOutcome::Stale { files } => {
-            let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-            Err(Failure::Stale(names.join(", ")))
-        }
-        ReportOutcome::Current => print("REPORT.md is up to date\n"),
-        ReportOutcome::Written { files } => print(&format!("{files} files written\n")),
     }
 }
 

@@ -14,15 +14,15 @@ use lahar::dem::{self, Grain, Material, Materials, PairProperties, Period, Surfa
 use lahar::plan::Plan;
 use lahar::rheology::Law;
 use lahar::scene;
+use lahar::setup::{
+    BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
+    YieldTreatment,
+};
 use lahar::solver::choose::only_plain;
 use lahar::solver::fast::Fast;
 use lahar::solver::fast::instructions::Instructions;
 use lahar::solver::plain::Plain;
 use lahar::solver::run::{Backend, Run, Runaway};
-use lahar::solver::setup::{
-    BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
-    YieldTreatment,
-};
 use lahar::units::Units;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};

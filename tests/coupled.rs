@@ -8,7 +8,7 @@ use lahar::output::csv::Series;
 use lahar::output::summary::Summary;
 use lahar::plan::Plan;
 use lahar::scene::{self, Scene};
-use lahar::solver::setup::BodyForce;
+use lahar::setup::BodyForce;
 
 fn lahar(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_lahar")).args(arguments).current_dir(root()).output().expect("it starts")
@@ -314,9 +314,9 @@ fn many_gaps_of_one_grain_share_what_a_step_can_take() {
     use lahar::coupling::Suspension;
     use lahar::dem::{self, V3};
     use lahar::rheology::Law;
+    use lahar::setup::{Face, Setup};
     use lahar::solver::choose::Best;
     use lahar::solver::run::Backend;
-    use lahar::solver::setup::{Face, Setup};
     use lahar::units::Units;
 
     let ball = |x: f64, y: f64| dem::Sphere { centre: V3::new(x, y, 0.0), radius: 2.0 };
@@ -356,9 +356,9 @@ fn exact_lubrication_pushes_the_wall_back() {
     use lahar::coupling::Suspension;
     use lahar::dem::{self, V3};
     use lahar::rheology::Law;
+    use lahar::setup::{Face, Setup};
     use lahar::solver::choose::Best;
     use lahar::solver::run::Backend;
-    use lahar::solver::setup::{Face, Setup};
     use lahar::units::Units;
 
     let grain = dem::Material { name: "grain".into(), density_kg_m3: 1e3, young_pa: 1.0, poisson: 0.25 };

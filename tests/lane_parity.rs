@@ -166,7 +166,7 @@ fn stresses(law: &Law) -> Vec<Vec<f64>> {
     mixed.map(|q| vec![q, 1.0 + 0.1 * numbers.next(), 1.0 + 0.9 * numbers.next()]).collect()
 }
 
-struct OmegaKernel(Prepared, lahar::solver::setup::YieldTreatment);
+struct OmegaKernel(Prepared, lahar::setup::YieldTreatment);
 impl Kernel for OmegaKernel {
     fn run<L: Lane>(&self, x: &[L]) -> Vec<L> {
         let (q, rho, previous) = (x[0], x[1], x[2]);

@@ -3,13 +3,13 @@
 use lahar::bench::backends;
 use lahar::plan::memory::{Layout, boundary_cells, predict, predicted_bytes};
 use lahar::rheology::Law;
+use lahar::setup::{
+    BodyForce, Face, FreeSurface, Precision, Setup, SolidMotion, SurfaceForce, WallRule, YieldTreatment,
+};
 use lahar::solver::choose::only_plain;
 use lahar::solver::fast::Fast;
 use lahar::solver::plain::Plain;
 use lahar::solver::run::Backend;
-use lahar::solver::setup::{
-    BodyForce, Face, FreeSurface, Precision, Setup, SolidMotion, SurfaceForce, WallRule, YieldTreatment,
-};
 
 const LAW: Law = Law::Bingham { sigma0: 1e-5, mu: 0.1 };
 

@@ -1,10 +1,10 @@
 //! What is written can be read back: VTI through vtkio, summary through its own reader.
 
+use lahar::fingerprint::Fingerprint;
 use lahar::output::OutputError;
 use lahar::output::isosurface::Mesh;
 use lahar::output::summary::{Extrema, Summary};
 use lahar::output::vti::Image;
-use lahar::solver::fingerprint::Fingerprint;
 use vtkio::model::{Attribute, DataSet, IOBuffer, Piece};
 
 const EXTENTS: [usize; 3] = [3, 4, 2];

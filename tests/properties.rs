@@ -10,9 +10,9 @@ use lahar::lane::Dual;
 use lahar::lattice::Q;
 use lahar::lattice::moments::{density_excess, moments, momentum, populations, second, third};
 use lahar::rheology::{Law, Rheology, relaxation};
+use lahar::setup::{BodyForce, Face, FlowPoint, Setup, WallRule, YieldTreatment};
 use lahar::solver::plain::Plain;
 use lahar::solver::run::{Backend, Run};
-use lahar::solver::setup::{BodyForce, Face, FlowPoint, Setup, WallRule, YieldTreatment};
 use proptest::prelude::*;
 
 fn ten_to(x: f64) -> f64 {
@@ -252,7 +252,7 @@ fn large(yielding: YieldTreatment, wall_rule: WallRule) -> Setup {
             u8::from((8..13).contains(&i) && (4..8).contains(&j) && (5..14).contains(&k))
         })
         .collect();
-    setup.solid_motion = vec![lahar::solver::setup::SolidMotion::default()];
+    setup.solid_motion = vec![lahar::setup::SolidMotion::default()];
     setup.force = BodyForce::Oscillating {
         mean: [1e-5, 0.0, 0.0],
         amplitude: [0.0, 0.0, 2e-5],

@@ -1,10 +1,10 @@
 //! Set-ups that cannot be run are refused before anything is allocated.
 
 use lahar::rheology::Law;
+use lahar::setup::{BodyForce, Face, FlowPoint, Precision, Setup, SolidMotion};
 use lahar::solver::choose::Best;
 use lahar::solver::plain::Plain;
 use lahar::solver::run::{Backend, Runaway, StartError};
-use lahar::solver::setup::{BodyForce, Face, FlowPoint, Precision, Setup, SolidMotion};
 
 const LAW: Law = Law::Newtonian { mu: 0.1 };
 

@@ -1,9 +1,9 @@
 //! A free-surface run is the same to the last bit on any number of threads.
 
 use lahar::rheology::Law;
+use lahar::setup::{BodyForce, Face, FreeSurface, Setup, SurfaceForce};
 use lahar::solver::plain::Plain;
 use lahar::solver::run::Backend;
-use lahar::solver::setup::{BodyForce, Face, FreeSurface, Setup, SurfaceForce};
 
 /// A corner column of Bingham fluid that collapses; more cells than one chunk of work.
 fn collapse(threads: usize, force: SurfaceForce) -> Setup {

@@ -11,9 +11,9 @@ use lahar::collision::Collision;
 use lahar::lattice::Q;
 use lahar::lattice::moments::{deviator, magnitude, moments};
 use lahar::rheology::Law;
+use lahar::setup::{BodyForce, Face, FlowPoint, Setup, SolidMotion, WallRule, YieldTreatment};
 use lahar::solver::plain::Plain;
 use lahar::solver::run::{Backend, Run};
-use lahar::solver::setup::{BodyForce, Face, FlowPoint, Setup, SolidMotion, WallRule, YieldTreatment};
 use proptest::prelude::*;
 
 /// Equal as numbers: a mirror image may turn +0 into −0.

@@ -4,7 +4,7 @@ use super::flows::{
     Dam, bingham, channel, herschel_bulkley, newtonian, rigid, settling, shear_rate, twin_bingham, twin_dam,
     twin_herschel_bulkley, twin_rigid, vortices,
 };
-use crate::solver::setup::{Precision, Setup};
+use crate::setup::{Precision, Setup};
 
 /// Full size, or about ten times fewer cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use super::cases::Scale;
 use crate::coupling::Suspension;
 use crate::dem::{self, Grain, Material, Materials, PairProperties, Period, V3};
 use crate::rheology::Law;
-use crate::solver::setup::{BodyForce, Face, FlowPoint, FreeSurface, InitialFlow, Setup};
+use crate::setup::{BodyForce, Face, FlowPoint, FreeSurface, InitialFlow, Setup};
 use crate::units::Units;
 
 /// Speed of the vortices, cells per step.

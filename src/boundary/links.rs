@@ -3,7 +3,7 @@
 
 use super::bounce_back::surface_velocity;
 use crate::lattice::{C, Q, direction, opposite};
-use crate::solver::setup::{Face, Setup};
+use crate::setup::{Face, Setup};
 
 /// Where a population comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! The viscosity-independent wall \[B3\] and the residual force it needs.
 
 use crate::lane::Lane;
-use crate::lane::unroll::{directions, six, three};
 use crate::lattice::moments::density_excess;
+use crate::lattice::unroll::{directions, six, three};
 use crate::lattice::{CS2, Q, W};
 
 /// f_t / (8 dσ/dγ̇) = |u″|/8: what the curvature of the velocity profile adds over the half cell

@@ -4,10 +4,10 @@ use super::Collision;
 use super::forcing_guo::{even_source, odd_source};
 use super::trt::raw_odd_departure;
 use crate::lane::Lane;
-use crate::lane::unroll::directions;
 use crate::lattice::Q;
 use crate::lattice::equilibrium::equilibrium;
 use crate::lattice::moments::Moments;
+use crate::lattice::unroll::directions;
 
 /// Bhatnagar-Gross-Krook operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

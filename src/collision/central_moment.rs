@@ -2,8 +2,8 @@
 
 use super::{Collision, OddRate};
 use crate::lane::Lane;
-use crate::lane::unroll::{six, three};
 use crate::lattice::moments::{Moments, THIRD, deviator, momentum, populations, third};
+use crate::lattice::unroll::{six, three};
 use crate::lattice::{Q, SYMMETRIC, pair};
 
 /// Central-moment operator.

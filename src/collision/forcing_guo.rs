@@ -1,8 +1,8 @@
 //! The Guo body-force source \[L5\], split into its even and odd parts.
 
 use crate::lane::Lane;
-use crate::lane::unroll::directions;
 use crate::lattice::equilibrium::dot;
+use crate::lattice::unroll::directions;
 use crate::lattice::{Q, W};
 
 /// w_i [9 (c·u)(c·F) − 3 u·F]: the even part, before the factor 1 − ω⁺/2.

@@ -5,9 +5,9 @@ use super::central_moment::{
     co_moving_odd_departure, induced, rebuild, relaxed_stress, third_equilibrium, third_force,
 };
 use crate::lane::Lane;
-use crate::lane::unroll::six;
 use crate::lattice::Q;
 use crate::lattice::moments::Moments;
+use crate::lattice::unroll::six;
 
 /// Recursive-regularised operator: third and fourth non-equilibrium moments are rebuilt from the
 /// second ones at every step, so no ghost mode survives a collision.

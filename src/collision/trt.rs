@@ -3,9 +3,9 @@
 use super::forcing_guo::{even_source, odd_source};
 use super::{Collision, OddRate};
 use crate::lane::Lane;
-use crate::lane::unroll::directions;
 use crate::lattice::equilibrium::equilibrium;
 use crate::lattice::moments::Moments;
+use crate::lattice::unroll::directions;
 use crate::lattice::{Q, opposite};
 
 /// Two-relaxation-time operator: even populations with ω⁺, odd ones with ω⁻.

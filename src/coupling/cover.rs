@@ -1,6 +1,5 @@
 //! Cells that grains take and give back \[C3\]: mass and momentum go through the ledger.
 
-use super::config::Mutant;
 use super::coverage::Changes;
 use super::host::{Host, Uncovered};
 use super::immersed::Immersed;
@@ -9,6 +8,7 @@ use crate::dem::keep_marked;
 use crate::free_surface::Kind;
 use crate::lattice::moments::{density_excess, momentum};
 use crate::lattice::{Q, W};
+use crate::setup::suspension::Mutant;
 use std::collections::BTreeMap;
 
 impl Immersed {

@@ -4,7 +4,7 @@ use super::L3;
 use super::link::{Ball, Blocked, Box3, Link};
 use crate::boundary::links::Source;
 use crate::lattice::{Q, opposite};
-use crate::solver::setup::Setup;
+use crate::setup::Setup;
 use rayon::prelude::*;
 
 /// No grain.

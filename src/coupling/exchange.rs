@@ -1,7 +1,6 @@
 //! What a grain's surface returns to the fluid, and the force and torque that it takes from it \[C1\] \[C2\].
 
 use super::L3;
-use super::config::{GrainWall, Mutant};
 use super::gather::{Gathered, Open, Pressed};
 use super::host::{Host, Place};
 use super::immersed::{BodyLoad, Immersed, on_pool};
@@ -9,6 +8,7 @@ use super::link::cross;
 use super::predict::middle;
 use crate::boundary::bounce_back::surface_velocity;
 use crate::lattice::{C, W};
+use crate::setup::suspension::{GrainWall, Mutant};
 use rayon::prelude::*;
 
 /// Grains answered before what they return is put in place: it is still in the cache then.

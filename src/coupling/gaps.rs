@@ -1,13 +1,13 @@
 //! Gaps between grains, and between grains and walls, and what the fluid does in them \[C5\].
 
-use super::config::{Lubrication, Mutant, Suspension};
 use super::lubrication::{Tangential, normal, tangential};
 use crate::dem::bodies::{Bodies, Member};
 use crate::dem::neighbours::PairList;
 use crate::dem::walls::{self, Near};
 use crate::dem::{Dem, V3};
 use crate::rheology::Law;
-use crate::solver::setup::Setup;
+use crate::setup::Setup;
+use crate::setup::suspension::{Lubrication, Mutant, Suspension};
 use crate::units::Units;
 use std::f64::consts::PI;
 

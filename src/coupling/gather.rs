@@ -1,7 +1,6 @@
 //! The links of a grain before its velocity is known \[C1\].
 
 use super::L3;
-use super::config::GrainWall;
 use super::coverage::NOBODY;
 use super::host::Host;
 use super::immersed::Immersed;
@@ -11,6 +10,7 @@ use super::pressure::{Fit, Samples};
 use crate::free_surface::Kind;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{C, Q, W};
+use crate::setup::suspension::GrainWall;
 
 /// A link whose outer cell holds fluid.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,6 @@
 //! Forces on a grain besides those of its links \[C2\] \[C6\].
 
 use super::L3;
-use super::config::VolumeRule;
 use super::coverage::NOBODY;
 use super::gather::{Gathered, Pressed};
 use super::host::Host;
@@ -10,6 +9,7 @@ use super::link::cross;
 use crate::free_surface::Kind;
 use crate::free_surface::hydrostatic::axis_of;
 use crate::lattice::{C, W};
+use crate::setup::suspension::VolumeRule;
 
 impl Immersed {
     /// Force and torque of the fluid that is pressed between a grain and a wall or another grain, too thin for a cell:

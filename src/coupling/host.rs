@@ -1,9 +1,9 @@
 //! What the coupling needs from a backend.
 
 use crate::free_surface::Kind;
+use crate::free_surface::conversion::Cells;
 use crate::lattice::Q;
-use crate::solver::conversion::Cells;
-use crate::solver::setup::Setup;
+use crate::setup::Setup;
 
 /// A cell that a grain has given free.
 #[derive(Clone, Copy, Debug, PartialEq)]

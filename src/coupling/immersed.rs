@@ -1,7 +1,6 @@
 //! The grains of a run: where they are, what they cover, what acts on them.
 
 use super::L3;
-use super::config::Suspension;
 use super::coverage::Coverage;
 use super::exchange::Returned;
 use super::gaps::Gaps;
@@ -10,7 +9,8 @@ use super::link::{Ball, Box3};
 use super::report::CouplingBooks;
 use crate::dem::bodies::SPHERE;
 use crate::dem::{Dem, DemError, V3};
-use crate::solver::setup::Setup;
+use crate::setup::Setup;
+use crate::setup::suspension::Suspension;
 use std::sync::OnceLock;
 
 /// Force and torque on one grain in the last step, lattice units: (F, T).

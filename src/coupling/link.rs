@@ -3,7 +3,7 @@
 use super::L3;
 use crate::boundary::links::{Source, resolve};
 use crate::lattice::{C, Q, opposite};
-use crate::solver::setup::{Face, Setup};
+use crate::setup::{Face, Setup};
 
 /// A sphere of a grain, lattice units.
 #[derive(Clone, Copy, Debug, PartialEq)]

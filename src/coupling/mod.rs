@@ -19,7 +19,6 @@
 //! collide → [`Immersed::exchange`] (links, forces) → stream, free surface → [`Immersed::advance`] (grains move by the
 //! force of this step, cells are covered and uncovered).
 
-pub mod config;
 mod cover;
 mod coverage;
 mod exchange;
@@ -36,7 +35,9 @@ mod refill;
 mod report;
 mod subcycle;
 
-pub use config::{GrainRefill, GrainWall, Lubrication, Mutant, RefillMass, Suspension, VolumeRule};
+pub use crate::setup::suspension::{
+    GrainRefill, GrainWall, Lubrication, Mutant, RefillMass, Suspension, VolumeRule,
+};
 pub use host::{Host, Place, Uncovered};
 pub use immersed::{BodyLoad, Immersed, body_force};
 pub use lubrication::{normal as lubrication_normal, tangential as lubrication_tangential};

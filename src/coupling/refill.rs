@@ -1,12 +1,12 @@
 //! Populations of cells that a grain gives free \[C3\].
 
-use super::config::{GrainRefill, RefillMass};
 use super::host::Host;
 use super::immersed::Immersed;
 use crate::boundary::bounce_back::surface_velocity;
+use crate::free_surface::conversion::neighbourhood;
 use crate::lattice::Q;
 use crate::lattice::equilibrium::equilibrium;
-use crate::solver::conversion::neighbourhood;
+use crate::setup::suspension::{GrainRefill, RefillMass};
 
 /// Largest difference of density to the neighbours that settling a debt may make: what a flow at a tenth of the
 /// speed of sound has anyway.

@@ -3,8 +3,8 @@
 use super::L3;
 use super::exchange::Returned;
 use super::immersed::Immersed;
+use crate::fingerprint::Hasher;
 use crate::free_surface::ledger::{Sum, VectorSum};
-use crate::solver::fingerprint::Hasher;
 
 /// Mass and momentum that went between fluid and grains, lattice units.
 #[derive(Clone, Copy, Debug, Default)]

@@ -3,7 +3,7 @@
 use super::host::Host;
 use super::immersed::{Immersed, on_pool};
 use crate::dem::V3;
-use crate::solver::run::{Runaway, Stopped};
+use crate::setup::guard::{Runaway, Stopped};
 
 impl Immersed {
     /// Moves the grains by the forces of this step, then covers and frees cells; after streaming and the free

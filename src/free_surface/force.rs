@@ -1,6 +1,6 @@
 //! The body force in interface cells \[F3\].
 
-use crate::solver::setup::SurfaceForce;
+use crate::setup::SurfaceForce;
 
 /// Share of the new value in the smoothed acceleration: a memory of about 16 steps, several times what
 /// a sound wave needs to cross an interface cell and short against any flow.

@@ -4,6 +4,7 @@
 //! liquid cell never touches gas. The passes over arrays are in `solver/plain/surface`; here is what
 //! one cell or one link does.
 
+pub mod conversion;
 pub mod exchange;
 pub mod force;
 pub mod hold;

@@ -13,7 +13,6 @@ mod pack;
 pub mod powers;
 mod single;
 pub mod streaming;
-pub mod unroll;
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

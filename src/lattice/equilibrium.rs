@@ -2,7 +2,7 @@
 
 use super::{C, Q, W};
 use crate::lane::Lane;
-use crate::lane::unroll::directions;
+use crate::lattice::unroll::directions;
 
 /// Σ_a c_a v_a for a lattice direction, without multiplications; grouped (x, y), z.
 #[inline(always)]

@@ -6,6 +6,7 @@
 
 pub mod equilibrium;
 pub mod moments;
+pub mod unroll;
 
 /// Number of velocities.
 pub const Q: usize = 19;

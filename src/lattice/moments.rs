@@ -2,7 +2,7 @@
 
 use super::{Q, SYMMETRIC};
 use crate::lane::Lane;
-use crate::lane::unroll::{directions, six, three};
+use crate::lattice::unroll::{directions, six, three};
 
 /// What a collision needs to know of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::verify::record::number;
+use crate::output::number;
 
 /// A line plot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{OutputError, atomic};
 use crate::dem::Energies;
-use crate::solver::fingerprint::Fingerprint;
-use crate::verify::record::number;
+use crate::fingerprint::Fingerprint;
+use crate::output::number;
 
 /// The run at its end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -6,7 +6,7 @@ use super::memory::{Layout, least_bytes_per_cell, predict};
 use super::numbers::Numbers;
 use crate::rheology::Law;
 use crate::scene::Scene;
-use crate::solver::setup::{BodyForce, Setup, WallRule};
+use crate::setup::{BodyForce, Setup, WallRule};
 
 /// Largest Mach number; 0.5 is 0.29 cells per step, where the O(Ma²) errors are a quarter.
 const MACH_MAX: f64 = 0.5;

@@ -4,10 +4,11 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::cells::Cells;
-use super::scale::{closed_axes, computed_force};
+use super::scale::closed_axes;
 use crate::free_surface::{Kind, hydrostatic};
+use crate::scene::force::computed_force;
 use crate::scene::{BodyForce, InitialPressure, InitialVelocity, Scene};
-use crate::solver::setup::{FlowPoint, InitialFlow};
+use crate::setup::{FlowPoint, InitialFlow};
 use crate::units::Units;
 
 /// Velocity, gradient and pressure of one wave flow at a cell, lattice units.

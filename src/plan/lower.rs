@@ -3,15 +3,15 @@
 use super::cells::Cells;
 use super::initial::initial_flow;
 use super::law::to_lattice;
-use super::scale::computed_force;
 use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::hydrostatic;
+use crate::scene::force::computed_force;
 use crate::scene::{
     BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Measure, Operator,
     PrecisionChoice, Probe, RefillChoice, Rheology, Scene, SurfaceGravity, SurfaceRules, WallChoice,
     YieldChoice,
 };
-use crate::solver::setup::{
+use crate::setup::{
     BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
     YieldTreatment,
 };

@@ -5,10 +5,10 @@ use serde::Serialize;
 use super::coupled::added_bytes;
 use crate::boundary::links::BoundaryCell;
 use crate::scene::{Scene, SurfaceGravity, YieldChoice};
+use crate::setup::{Face, FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
 use crate::solver::choose;
 use crate::solver::fast::layout::Layout as Blocks;
 use crate::solver::fast::memory as fast;
-use crate::solver::setup::{Face, FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
 
 /// How a backend lays cells out in memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]

@@ -19,6 +19,7 @@ pub mod surface;
 mod surface_checks;
 pub mod target;
 mod time_step;
+pub mod work;
 
 use std::fmt;
 
@@ -26,11 +27,10 @@ pub use error::{PlanError, PlanProblem};
 pub use memory::{Layout, available as available_memory};
 pub use needs::Need;
 pub use numbers::Numbers;
-pub use scale::{computed_force, driving_force, extreme_forces, gravity_vector, total_force};
 pub use time_step::StepRule;
 
 use crate::scene::Scene;
-use crate::solver::setup::Setup;
+use crate::setup::Setup;
 use crate::units::Units;
 
 /// Everything a run needs, worked out before it starts.

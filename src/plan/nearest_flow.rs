@@ -3,12 +3,13 @@
 use super::cells::Cells;
 use super::lower::operator;
 use super::numbers::Numbers;
-use super::scale::{closed_axes, extreme_forces, total_force};
+use super::scale::closed_axes;
+use crate::plan::work::{Case, Operator, Scheme, Walls};
+use crate::scene::force::{extreme_forces, total_force};
 use crate::scene::{
     BodyForce, Boundary, InitialVelocity, Operator as SceneOperator, Rheology, Scene, YieldChoice,
 };
-use crate::solver::setup::{Setup, WallRule};
-use crate::verify::work::{Case, Operator, Scheme, Walls};
+use crate::setup::{Setup, WallRule};
 
 /// Kind of law, as far as the table tells them apart.
 #[derive(Clone, Copy, PartialEq)]

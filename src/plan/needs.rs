@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::scale::norm;
 use crate::scene::Scene;
-use crate::solver::setup::{BodyForce, ExcessRule, Face, Setup, SurfaceForce, WallRule, YieldTreatment};
+use crate::scene::force::norm;
+use crate::setup::{BodyForce, ExcessRule, Face, Setup, SurfaceForce, WallRule, YieldTreatment};
 
 /// A pass over the cells, and whether this run has it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

@@ -6,12 +6,13 @@ use super::coupled::{self, Coupled, CoupledNumbers, Findings};
 use super::law::{self, apparent_viscosity, has_plug, plastic_viscosity};
 use super::memory::{Item, Layout, items};
 use super::needs::{Need, passes};
-use super::scale::{Scales, extreme_forces, norm, total_force};
+use super::scale::Scales;
 use super::surface::Pool;
 use super::time_step::{StepRule, reference_viscosity};
 use crate::collision::CollisionChoice;
+use crate::scene::force::{extreme_forces, norm, total_force};
 use crate::scene::{InitialPressure, Rheology, Scene};
-use crate::solver::setup::{Precision, Setup, WallRule, YieldTreatment};
+use crate::setup::{Precision, Setup, WallRule, YieldTreatment};
 use crate::stability::max_stable_speed;
 use crate::units::Units;
 

@@ -1,7 +1,7 @@
 //! The fluid at time 0 of a scene with a free surface: fill of the cells, depths and falls.
 
-use super::scale::{extreme_forces, total_force};
 use crate::geometry::{Axis, Shape, covered};
+use crate::scene::force::{extreme_forces, total_force, up};
 use crate::scene::{FillLevel, Scene};
 
 /// How the fluid lies at time 0, m.
@@ -59,21 +59,6 @@ pub fn shares(shapes: &[&Shape], extents: [usize; 3], dx: f64, solids: &[u8]) ->
         }
     }
     fill
-}
-
-/// The axis of the strongest force component and whether it points to smaller coordinates; z and true
-/// without a force.
-#[must_use]
-pub fn up(scene: &Scene) -> (Axis, bool) {
-    let mut strongest = (Axis::Z, -0.0_f64);
-    for force in extreme_forces(&total_force(scene)) {
-        for axis in [Axis::Z, Axis::Y, Axis::X] {
-            if force[axis.index()].abs() > strongest.1.abs() {
-                strongest = (axis, force[axis.index()]);
-            }
-        }
-    }
-    (strongest.0, strongest.1 <= 0.0)
 }
 
 /// Depths and falls of a fill.

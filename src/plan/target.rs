@@ -9,8 +9,8 @@ use super::nearest_flow::{case_of, scheme_of};
 use super::scale;
 use super::time_step;
 use super::{Numbers, Plan};
+use crate::plan::work::{Advice, Case, Choice, Operator, Walls, Work, predicted, recommend};
 use crate::scene::Scene;
-use crate::verify::work::{Advice, Case, Choice, Operator, Walls, Work, predicted, recommend};
 
 /// A relative error to aim at.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,8 +4,9 @@ use serde::Serialize;
 
 use super::error::PlanProblem;
 use super::law::{parameters, plastic_viscosity};
-use super::scale::{Scales, closed_axes, driving_force, extreme_forces};
+use super::scale::{Scales, closed_axes};
 use super::surface::Pool;
+use crate::scene::force::{driving_force, extreme_forces};
 use crate::scene::{BodyForce, Scene};
 use crate::units::Units;
 

@@ -9,6 +9,7 @@ mod power_law;
 mod power_sum;
 mod prepared;
 pub mod relaxation;
+mod yielding;
 
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +22,7 @@ pub use papanastasiou::Papanastasiou;
 pub use power_law::PowerLaw;
 pub use power_sum::PowerSum;
 pub use prepared::Prepared;
+pub use yielding::YieldTreatment;
 
 /// A monotone law σ(γ̇) in lattice units, ready for use in every cell.
 pub trait Rheology: Clone + Send + Sync + 'static {

@@ -1,8 +1,8 @@
 //! From a law and the state of a cell to the even relaxation rate ω⁺ = 1/τ.
 
 use super::Rheology;
+use super::YieldTreatment;
 use crate::lane::Lane;
-use crate::solver::setup::YieldTreatment;
 
 /// ω⁺ from a shear rate: 1/τ = ρ γ̇ / (3 q); zero where q is zero.
 ///

@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use super::{Ending, GrainsFinished, View};
 use crate::dem::{Dem, Energies};
+use crate::fingerprint::Hasher;
+use crate::output::number;
 use crate::output::summary::hash;
 use crate::output::{OutputError, atomic};
 use crate::scene::dry::DryScene;
-use crate::solver::fingerprint::Hasher;
-use crate::verify::record::number;
 
 /// The run at its end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

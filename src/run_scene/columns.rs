@@ -2,8 +2,8 @@
 
 use crate::free_surface::Kind;
 use crate::geometry::Axis;
+use crate::setup::Setup;
 use crate::solver::run::Fields;
-use crate::solver::setup::Setup;
 use crate::units::Units;
 
 /// Which way columns stand.

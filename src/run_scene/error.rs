@@ -8,8 +8,8 @@ use crate::output::OutputError;
 use crate::plan::Plan;
 use crate::run_grains::GrainStopReport;
 use crate::scene::Scene;
+use crate::setup::WallRule;
 use crate::solver::run::{Runaway, StartError, Stopped};
-use crate::solver::setup::WallRule;
 
 /// Why a run did not end as planned.
 #[derive(Debug, thiserror::Error)]

@@ -14,8 +14,8 @@ use crate::run_grains::probes::{Sampler, columns, probes};
 use crate::run_grains::writer::{Files, groups};
 use crate::run_grains::{View, fingerprint, leave};
 use crate::scene::dry::GrainMeasure;
+use crate::setup::{Face, Setup};
 use crate::solver::run::{Fields, Run};
-use crate::solver::setup::{Face, Setup};
 use crate::units::Units;
 
 /// Force of contacts and lubrication on a solid since the last row, and since time 0.

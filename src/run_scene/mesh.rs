@@ -2,8 +2,8 @@
 
 use crate::lattice::C;
 use crate::output::isosurface::{Grid, Mesh, surface};
+use crate::setup::{Face, Setup};
 use crate::solver::run::Fields;
-use crate::solver::setup::{Face, Setup};
 use crate::units::Units;
 
 /// The surface where the fill, taken at cell centres, is ½; corners in m, carried vectors in m/s.

@@ -9,8 +9,8 @@ use crate::output::picture::{self, Picture};
 use crate::output::plot::{Axis, Plot, Series as Curve};
 use crate::output::{OutputError, atomic, svg};
 use crate::scene::Measure;
+use crate::setup::Face;
 use crate::solver::run::{Fields, Run};
-use crate::solver::setup::Face;
 
 /// Most curves of a section at different times.
 const CURVES: usize = 6;

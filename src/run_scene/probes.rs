@@ -4,8 +4,8 @@ use super::columns::{Upright, front};
 use super::grains::CONTACT_COLUMNS;
 use crate::geometry::Axis;
 use crate::scene::{Measure, Probe, Scene};
+use crate::setup::{Setup, YieldTreatment};
 use crate::solver::run::{Fields, Load, Run};
-use crate::solver::setup::{Setup, YieldTreatment};
 use crate::units::Units;
 
 /// Largest speed, lattice units.
@@ -110,7 +110,7 @@ pub(super) struct Sampler {
 
 impl Sampler {
     pub fn new(scene: &Scene, units: Units) -> Self {
-        let (up, down_is_low) = crate::plan::surface::up(scene);
+        let (up, down_is_low) = crate::scene::force::up(scene);
         let solids = scene.solids.iter().map(|solid| solid.name.clone()).collect();
         Self { units, upright: Upright { up, down_is_low }, solids }
     }

@@ -12,8 +12,8 @@ use crate::output::summary::{Extrema, Summary, SurfaceSummary, hash};
 use crate::output::{OutputError, vti, vtp};
 use crate::plan::Plan;
 use crate::scene::{Measure, Probe, Scene};
+use crate::setup::Setup;
 use crate::solver::run::{Fields, Ledger, Run};
-use crate::solver::setup::Setup;
 
 /// Knows the folder and what has been written.
 pub(super) struct Writer<'a> {

@@ -176,7 +176,7 @@ impl Scene {
         if !self.coupling().balanced.unwrap_or(gravity.direction.is_some()) {
             return [false; 3];
         }
-        let pull = crate::plan::gravity_vector(&gravity);
+        let pull = crate::scene::force::gravity_vector(&gravity);
         let faces = self.domain.boundaries.by_axis();
         std::array::from_fn(|a| faces[a][0] == Boundary::Periodic && pull[a] != 0.0)
     }

@@ -6,6 +6,7 @@ mod domain;
 pub mod dry;
 mod error;
 mod fluid;
+pub mod force;
 mod nearest;
 mod numerics;
 mod parse;
@@ -80,9 +81,9 @@ impl Scene {
     /// levels; `None` without a force.
     #[must_use]
     pub fn up_axis(&self) -> Option<Axis> {
-        let force = crate::plan::extreme_forces(&crate::plan::total_force(self));
-        let pulls = force.iter().flatten().any(|f| *f != 0.0);
-        pulls.then(|| crate::plan::surface::up(self).0)
+        let forces = force::extreme_forces(&force::total_force(self));
+        let pulls = forces.iter().flatten().any(|f| *f != 0.0);
+        pulls.then(|| force::up(self).0)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Consistency of a [`Setup`] before anything is allocated.
 
 use super::run::StartError;
-use super::setup::{Face, Setup};
 use crate::boundary::links::MAX_CELLS;
+use crate::setup::{Face, Setup};
 
 /// Checks lengths, table entries, faces and size.
 ///

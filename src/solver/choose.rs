@@ -3,7 +3,7 @@
 use super::fast::Fast;
 use super::plain::Plain;
 use super::run::{Backend, Run, StartError};
-use super::setup::{Precision, Setup};
+use crate::setup::{Precision, Setup};
 
 /// The fast backend, and the plain one for what only that has ([`only_plain`]): the bits are the same. Single
 /// precision is only in the fast one; together with what only the plain one has it is refused by name.

@@ -1,9 +1,9 @@
 //! Populations that start a flow with given density, velocity and velocity gradient.
 
-use super::setup::FlowPoint;
 use crate::lattice::moments::{THIRD, populations};
 use crate::lattice::{Q, SYMMETRIC, pair};
 use crate::rheology::Law;
+use crate::setup::FlowPoint;
 
 /// Rest at the reference density: where nothing else is asked for.
 pub const REST: FlowPoint = FlowPoint { density: 1.0, velocity: [0.0; 3], gradient: [[0.0; 3]; 3] };

@@ -4,7 +4,6 @@
 //! equation. A mutant (see `verify::mutant`) wraps it and overrides exactly one method; the hot loop
 //! is compiled for each, and the right one pays nothing for it.
 
-use super::setup::YieldTreatment;
 use crate::boundary::{bounce_back, wall_slip};
 use crate::collision::Collision;
 use crate::free_surface::{Kind, exchange};
@@ -12,6 +11,7 @@ use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::moments::{self, Moments};
 use crate::rheology::{Rheology, relaxation};
+use crate::setup::YieldTreatment;
 
 /// One cell's equations.
 pub trait Physics: Clone + Send + Sync + 'static {

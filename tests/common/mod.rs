@@ -5,7 +5,7 @@
 use lahar::collision::{CollisionChoice, OddRate};
 use lahar::lattice::{C, Q, W};
 use lahar::rheology::Law;
-use lahar::solver::setup::YieldTreatment;
+use lahar::setup::YieldTreatment;
 
 /// Every operator, the two-rate ones with and without floor.
 pub const OPERATORS: [CollisionChoice; 6] = [

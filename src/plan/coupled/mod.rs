@@ -15,13 +15,14 @@ pub(super) use print::table;
 use super::cells::Cells;
 use super::grains::{GrainPlan, Placed, refusal, speed as impact};
 use super::law::apparent_viscosity;
-use super::scale::{Scales, gravity_vector};
+use super::scale::Scales;
 use super::{PlanError, PlanProblem};
 use crate::coupling::{GrainRefill, GrainWall, Lubrication, Suspension};
 use crate::dem::{Dem, Setup as Grains};
 use crate::scene::dry::DryScene;
+use crate::scene::force::gravity_vector;
 use crate::scene::{GrainRefillChoice, GrainWallChoice, LubricationChoice, Scene};
-use crate::solver::setup::Setup;
+use crate::setup::Setup;
 use crate::units::Units;
 
 /// Least density of a grain over that of the fluid.

@@ -12,7 +12,7 @@ use crate::plan::print::short;
 use crate::plan::scale::Scales;
 use crate::rheology::bagnold::Mixture;
 use crate::scene::{Boundary, FACE_KEYS, Scene};
-use crate::solver::setup::Setup;
+use crate::setup::Setup;
 use crate::units::Units;
 
 /// Bytes per cell of the box for the owner of a covered cell.

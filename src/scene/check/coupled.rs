@@ -37,7 +37,7 @@ fn coupling(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
         })
     };
     if let LubricationChoice::On(lubrication) = rules.lubrication {
-        let default = crate::coupling::Lubrication::default();
+        let default = crate::setup::suspension::Lubrication::default();
         let cutoff = lubrication.cutoff_cells.unwrap_or(default.cutoff);
         let (key, because) = ("lubrication.cutoff_cells", "wider gaps are resolved, and would count twice");
         range(key, cutoff, "cells", [0.01, 2.0], because, "leave it out for 0.74")?;
@@ -56,7 +56,7 @@ fn coupling(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
         SceneProblem::UnusedKey { key: "time_step_s", because: "`grains.coupling.sub_steps` fixes it" }
     })?;
     let Some(balanced) = rules.balanced else { return Ok(()) };
-    let pulls = |a: usize| scene.gravity.is_some_and(|g| crate::plan::gravity_vector(&g)[a] != 0.0);
+    let pulls = |a: usize| scene.gravity.is_some_and(|g| crate::scene::force::gravity_vector(&g)[a] != 0.0);
     let faces = scene.domain.boundaries.by_axis();
     let along = (0..3).any(|a| faces[a][0] == Boundary::Periodic && pulls(a));
     at.ensure(along && scene.fluid.initial.is_none(), &path("balanced"), || SceneProblem::UnusedKey {

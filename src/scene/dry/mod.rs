@@ -199,6 +199,6 @@ impl DryScene {
     /// Acceleration of gravity, m/s².
     #[must_use]
     pub fn gravity(&self) -> [f64; 3] {
-        self.gravity.as_ref().map_or([0.0; 3], crate::plan::gravity_vector)
+        self.gravity.as_ref().map_or([0.0; 3], crate::scene::force::gravity_vector)
     }
 }

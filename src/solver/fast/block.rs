@@ -3,7 +3,7 @@
 use super::layout::{Layout, NONE};
 use crate::boundary::links::{BoundaryCell, Source, boundary_cell};
 use crate::lattice::{C, Q, direction, opposite};
-use crate::solver::setup::Setup;
+use crate::setup::Setup;
 
 /// A cell by the place of its block and its place in the block; blocks may come and go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -324,7 +324,7 @@ fn is_plain(setup: &Setup, layout: &Layout, place: usize) -> bool {
     let inside = (0..3).all(|a| {
         let n = setup.extents[a];
         let fits = last[a] < n;
-        let open = setup.faces[a][0] == crate::solver::setup::Face::Periodic;
+        let open = setup.faces[a][0] == crate::setup::Face::Periodic;
         let whole = n.is_multiple_of(last[a] + 1 - origin[a]);
         fits && if open {
             whole || (origin[a] > 0 && last[a] + 1 < n)

@@ -10,9 +10,9 @@ use crate::free_surface::Kind;
 use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
+use crate::setup::{Setup, YieldTreatment};
 use crate::solver::physics::Physics;
 use crate::solver::run::Stopped;
-use crate::solver::setup::{Setup, YieldTreatment};
 
 impl<P: Physics, E: Element> FastRun<P, E> {
     /// Body force of this step, with the pressure gradient that balances the weight of grains.

@@ -17,13 +17,13 @@ use super::stage::{Around, Class, MOST, Stage};
 use super::stores;
 use super::surface::{InterfaceCell, SurfaceView};
 use crate::lane::Lane;
-use crate::lane::unroll::{directions, three};
 use crate::lattice::Q;
 use crate::lattice::moments::Moments;
+use crate::lattice::unroll::{directions, three};
+use crate::setup::Setup;
 use crate::solver::physics::Physics;
 use crate::solver::plain::cell::runaway;
 use crate::solver::run::Stopped;
-use crate::solver::setup::Setup;
 
 /// Packs between asking for a line of another block and using it: two microseconds, several times what memory
 /// takes. Lines of the block itself are asked for a whole block earlier.

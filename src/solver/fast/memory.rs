@@ -6,7 +6,7 @@ use super::layout::Layout;
 use super::rim::Rim;
 use super::sources::Sources;
 use super::surface::{InterfaceCell, Lanes};
-use crate::solver::setup::{Face, Precision, Setup};
+use crate::setup::{Face, Precision, Setup};
 
 /// Cells per pack: a line of the cache.
 #[must_use]

@@ -22,9 +22,9 @@ mod x86_single;
 
 use crate::collision::{CentralMoment, CollisionChoice};
 use crate::rheology::{Bingham, HerschelBulkley, Law, Newtonian, Prepared};
+use crate::setup::{Precision, Setup};
 use crate::solver::physics::{Physics, Standard};
 use crate::solver::run::{Backend, Run, StartError};
-use crate::solver::setup::{Precision, Setup};
 use element::Element;
 use instructions::{Chosen, Instructions, Passes};
 pub use run::FastRun;

@@ -3,13 +3,13 @@
 use super::element::{Aligned, Element};
 use super::run::FastRun;
 use crate::coupling::Immersed;
+use crate::fingerprint::{Fingerprint, Hasher};
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
-use crate::solver::fingerprint::{Fingerprint, Hasher};
+use crate::setup::Setup;
 use crate::solver::physics::Physics;
 use crate::solver::plain::cell;
 use crate::solver::run::{Fields, Ledger, Load, Run, Stopped, Totals};
-use crate::solver::setup::Setup;
 
 impl<P: Physics, E: Element> FastRun<P, E> {
     /// Block and place of every fluid cell, with its number in the box, in the order of the box.

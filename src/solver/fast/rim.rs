@@ -6,9 +6,9 @@ use super::layout::{Layout, NONE};
 use super::registers::Registers;
 use super::stage::MOST;
 use crate::boundary::wall_slip::pressure_slope;
-use crate::lane::unroll::{directions, three};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
+use crate::lattice::unroll::{directions, three};
 use crate::solver::physics::Physics;
 use crate::solver::plain::cell::{Situation, State, wall_correction};
 

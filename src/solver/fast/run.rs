@@ -17,11 +17,11 @@ use super::surface::{Surface, put};
 use crate::coupling::Immersed;
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
+use crate::setup::{Setup, WallRule, YieldTreatment};
 use crate::solver::initial;
 use crate::solver::physics::Physics;
 use crate::solver::plain::starting_omega;
 use crate::solver::run::{StartError, Stopped};
-use crate::solver::setup::{Setup, WallRule, YieldTreatment};
 
 /// Populations above this many bytes do not fit the caches: stores then go past them.
 const CACHED: u64 = 24 << 20;

@@ -6,7 +6,7 @@ use super::layout::Layout;
 use super::registers::Registers;
 use super::stage::Around;
 use super::stores;
-use crate::lane::unroll::directions;
+use crate::lattice::unroll::directions;
 use crate::lattice::{C, Q};
 
 /// A line of the neighbourhood: entry ([`Layout::around`]) and first number in that block.

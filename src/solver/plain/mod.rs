@@ -9,9 +9,9 @@ mod surface;
 
 use crate::collision::{Bgk, CentralMoment, CollisionChoice};
 use crate::rheology::{Bingham, HerschelBulkley, Law, Newtonian};
+use crate::setup::{Precision, Setup, YieldTreatment};
 use crate::solver::physics::{Physics, Standard};
 use crate::solver::run::{Backend, Run, StartError};
-use crate::solver::setup::{Precision, Setup, YieldTreatment};
 
 pub use run::{PlainRun, starting_omega};
 pub use surface::SurfaceRun;

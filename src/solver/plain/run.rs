@@ -4,13 +4,13 @@ use rayon::prelude::*;
 
 use super::cell::{self, Cell};
 use crate::boundary::links::{CellKind, Links};
+use crate::fingerprint::{Fingerprint, Hasher};
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
-use crate::solver::fingerprint::{Fingerprint, Hasher};
+use crate::setup::{Setup, WallRule, YieldTreatment};
 use crate::solver::initial::{self, REST};
 use crate::solver::physics::Physics;
 use crate::solver::run::{Fields, Run, StartError, Stopped, Totals};
-use crate::solver::setup::{Setup, WallRule, YieldTreatment};
 
 /// Cells per chunk of work: enough to hide the hand-over, few enough to balance.
 const CHUNK: usize = 4096;

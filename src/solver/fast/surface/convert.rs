@@ -1,20 +1,20 @@
-//! Conversions of one step \[F4\] \[F6\]: the blocks of this backend for [`crate::solver::conversion`].
+//! Conversions of one step \[F4\] \[F6\]: the blocks of this backend for [`crate::free_surface::conversion`].
 
 use std::collections::BTreeMap;
 
 use super::InterfaceCell;
 use crate::boundary::links::{Source, resolve};
 use crate::free_surface::Kind;
+use crate::free_surface::conversion::{Cells, convert, fill_of, touch, verdict};
 use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::free_surface::marks::{Mark, Touches, mark};
 use crate::lattice::Q;
 use crate::lattice::moments::{density_excess, moments};
-use crate::solver::conversion::{Cells, convert, fill_of, touch, verdict};
+use crate::setup::YieldTreatment;
 use crate::solver::fast::element::Element;
 use crate::solver::fast::layout::NONE;
 use crate::solver::fast::run::{FastRun, each};
 use crate::solver::physics::Physics;
-use crate::solver::setup::YieldTreatment;
 
 impl<P: Physics, E: Element> FastRun<P, E> {
     /// Marks, conversions, refill and excess of one step; then φ of every interface cell.

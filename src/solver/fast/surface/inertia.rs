@@ -6,10 +6,10 @@ use super::super::layout::NONE;
 use super::super::run::{FastRun, each};
 use super::InterfaceCell;
 use crate::free_surface::Kind;
+use crate::free_surface::conversion::mirrored;
 use crate::free_surface::force::smooth;
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
-use crate::solver::conversion::mirrored;
 use crate::solver::physics::Physics;
 
 /// Three numbers per cell of a block: first those along x, then y, then z.

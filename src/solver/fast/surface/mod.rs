@@ -22,10 +22,10 @@ use super::run::FastRun;
 use crate::free_surface::Kind;
 use crate::free_surface::force::interface_force;
 use crate::lattice::Q;
+use crate::setup::{FreeSurface, SurfaceForce};
 use crate::solver::books::Books;
 use crate::solver::physics::Physics;
 use crate::solver::run::{Load, Runaway, Stopped};
-use crate::solver::setup::{FreeSurface, SurfaceForce};
 use inertia::Inertia;
 
 /// Steps between two searches for blocks that have run dry.
@@ -36,7 +36,7 @@ const STEPS_PER_SEARCH: u64 = 64;
 pub struct InterfaceCell {
     /// Place in the block.
     pub local: u16,
-    /// What it touched while streaming, bits of [`crate::solver::conversion::touch`].
+    /// What it touched while streaming, bits of [`crate::free_surface::conversion::touch`].
     pub touches: u8,
     /// Populations before the next collision.
     pub f: [f64; Q],

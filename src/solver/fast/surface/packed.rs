@@ -3,13 +3,13 @@
 
 use super::InterfaceCell;
 use super::exchange::Streaming;
+use crate::free_surface::conversion::touch;
 use crate::free_surface::exchange::share_with;
 use crate::lane::Lane;
-use crate::lane::unroll::{directions, three};
 use crate::lattice::moments::density_excess;
+use crate::lattice::unroll::{directions, three};
 use crate::lattice::{C, Q, opposite};
 use crate::solver::books::Entries;
-use crate::solver::conversion::touch;
 use crate::solver::fast::element::Element;
 use crate::solver::fast::kernel::index;
 use crate::solver::fast::registers::Registers;

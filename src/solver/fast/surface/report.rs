@@ -1,12 +1,12 @@
 //! Sums and fields of a run with a free surface.
 
 use super::Surface;
+use crate::fingerprint::Hasher;
 use crate::free_surface::Kind;
 use crate::free_surface::ledger::{Sum, VectorSum};
 use crate::lattice::moments::{Moments, density_excess, momentum};
 use crate::solver::fast::element::Element;
 use crate::solver::fast::run::FastRun;
-use crate::solver::fingerprint::Hasher;
 use crate::solver::physics::Physics;
 use crate::solver::run::{Fields, Ledger};
 

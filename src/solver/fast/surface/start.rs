@@ -8,6 +8,7 @@ use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
+use crate::setup::{FlowPoint, FreeSurface, SurfaceForce};
 use crate::solver::books::Books;
 use crate::solver::fast::element::Element;
 use crate::solver::fast::kernel::index;
@@ -17,7 +18,6 @@ use crate::solver::initial::{self, REST};
 use crate::solver::physics::Physics;
 use crate::solver::plain::starting_omega;
 use crate::solver::run::{Load, StartError};
-use crate::solver::setup::{FlowPoint, FreeSurface, SurfaceForce};
 
 impl<P: Physics, E: Element> FastRun<P, E> {
     /// Blocks, populations, masses and the ledger.
@@ -180,7 +180,7 @@ pub(in crate::solver::fast) fn put<T>(list: &mut Vec<T>, number: usize, value: T
 }
 
 /// The cells that the links of a cell lead to.
-fn neighbours(setup: &crate::solver::setup::Setup, cell: usize) -> Vec<usize> {
+fn neighbours(setup: &crate::setup::Setup, cell: usize) -> Vec<usize> {
     let at = setup.coordinates(cell);
     let through = |i| match resolve(setup, at, i).0 {
         Source::Cell { cell, .. } => Some(cell as usize),

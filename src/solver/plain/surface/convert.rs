@@ -1,17 +1,17 @@
-//! Conversions of one step \[F4\] \[F6\]: the arrays of this backend for [`crate::solver::conversion`].
+//! Conversions of one step \[F4\] \[F6\]: the arrays of this backend for [`crate::free_surface::conversion`].
 
 use std::collections::BTreeMap;
 
 use super::SurfaceRun;
 use crate::boundary::links::Source;
 use crate::free_surface::Kind;
+use crate::free_surface::conversion::{Cells, convert, fill_of, verdict};
 use crate::free_surface::marks::Mark;
 use crate::lattice::Q;
 use crate::lattice::moments::{density_excess, moments};
-use crate::solver::conversion::{Cells, convert, fill_of, verdict};
+use crate::setup::{SurfaceForce, YieldTreatment};
 use crate::solver::physics::Physics;
 use crate::solver::plain::cell::Cell;
-use crate::solver::setup::{SurfaceForce, YieldTreatment};
 
 impl<P: Physics> SurfaceRun<P> {
     /// Marks, conversions, refill and excess of one step; then φ of every interface cell.

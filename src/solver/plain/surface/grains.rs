@@ -5,10 +5,10 @@ use crate::coupling::{Host, Immersed, Place, Uncovered, body_force};
 use crate::free_surface::Kind;
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
+use crate::setup::{Setup, YieldTreatment};
 use crate::solver::physics::Physics;
 use crate::solver::plain::cell::Cell;
 use crate::solver::run::Stopped;
-use crate::solver::setup::{Setup, YieldTreatment};
 
 impl<P: Physics> SurfaceRun<P> {
     /// Body force of this step, with the pressure gradient that balances the weight of grains.

@@ -18,11 +18,11 @@ use crate::coupling::Immersed;
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
+use crate::setup::{FlowPoint, FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
 use crate::solver::books::Books;
 use crate::solver::initial::{self, REST};
 use crate::solver::physics::Physics;
 use crate::solver::run::{Load, Run, StartError, Stopped};
-use crate::solver::setup::{FlowPoint, FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
 
 /// A free-surface flow being stepped with one kind of physics.
 pub struct SurfaceRun<P> {
@@ -47,7 +47,7 @@ pub struct SurfaceRun<P> {
     acceleration: Vec<[f64; 3]>,
     /// u of the collision before; only for the rule with inertia.
     velocity_before: Vec<[f64; 3]>,
-    /// What each interface cell touches, as bits of [`crate::solver::conversion::touch`].
+    /// What each interface cell touches, as bits of [`crate::free_surface::conversion::touch`].
     touches: Vec<u8>,
     /// ω⁺ of the previous step; only for the lagged treatment.
     previous_omega: Vec<f64>,

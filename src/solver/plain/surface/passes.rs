@@ -5,15 +5,15 @@ use rayon::prelude::*;
 use super::SurfaceRun;
 use crate::boundary::links::{CellKind, Source};
 use crate::free_surface::Kind;
+use crate::free_surface::conversion::{mirrored, touch};
 use crate::free_surface::force::{interface_force, smooth};
 use crate::free_surface::ledger::VectorSum;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, opposite};
-use crate::solver::conversion::{mirrored, touch};
+use crate::setup::SurfaceForce;
 use crate::solver::physics::Physics;
 use crate::solver::plain::cell::{self, Cell};
 use crate::solver::run::Stopped;
-use crate::solver::setup::SurfaceForce;
 
 /// Cells per chunk of work.
 pub const CHUNK: usize = 4096;

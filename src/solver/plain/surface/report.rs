@@ -2,14 +2,14 @@
 
 use super::SurfaceRun;
 use crate::coupling::Immersed;
+use crate::fingerprint::{Fingerprint, Hasher};
 use crate::free_surface::Kind;
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
-use crate::solver::fingerprint::{Fingerprint, Hasher};
+use crate::setup::Setup;
 use crate::solver::physics::Physics;
 use crate::solver::plain::cell::Cell;
 use crate::solver::run::{Fields, Ledger, Load, Run, Stopped, Totals};
-use crate::solver::setup::Setup;
 
 impl<P: Physics> SurfaceRun<P> {
     fn fluid_in_order(&self) -> impl Iterator<Item = usize> {

@@ -1,0 +1,99 @@
+//! What acts on the fluid of a scene, SI: gravity, body force, and what of them the fluid is computed with.
+
+use super::{BodyForce, Gravity, Scene};
+use crate::geometry::Axis;
+
+/// Gravity's force per volume, N/m³: ρ0 g.
+#[must_use]
+pub fn gravity_force(gravity: &Gravity, density: f64) -> [f64; 3] {
+    let weight = density * gravity.magnitude_m_per_s2;
+    if let Some(direction) = gravity.direction {
+        let norm = norm(direction);
+        return direction.map(|d| weight * d / norm);
+    }
+    let slope = gravity.slope_deg.unwrap_or(0.0).to_radians();
+    let mut force = [weight * libm::sin(slope), 0.0, 0.0];
+    force[gravity.bed_normal.unwrap_or(Axis::Z).index()] = -weight * libm::cos(slope);
+    force
+}
+
+/// Acceleration of gravity, m/s².
+#[must_use]
+pub fn gravity_vector(gravity: &Gravity) -> [f64; 3] {
+    gravity_force(gravity, 1.0)
+}
+
+/// Body force with gravity in it.
+#[must_use]
+pub fn total_force(scene: &Scene) -> BodyForce {
+    force_without_weight(scene, [false; 3])
+}
+
+/// Body force that the fluid is computed with: without its weight where the pressure of the fluid at rest is left out
+/// of the computed one ([`Scene::weightless_axes`]).
+#[must_use]
+pub fn computed_force(scene: &Scene) -> BodyForce {
+    force_without_weight(scene, scene.weightless_axes())
+}
+
+/// What of it drives a flow: not the weight that a uniform pressure gradient carries either.
+#[must_use]
+pub fn driving_force(scene: &Scene) -> BodyForce {
+    let (weightless, balanced) = (scene.weightless_axes(), scene.balanced_axes());
+    force_without_weight(scene, std::array::from_fn(|a| weightless[a] || balanced[a]))
+}
+
+fn force_without_weight(scene: &Scene, without: [bool; 3]) -> BodyForce {
+    let weight =
+        scene.gravity.map_or([0.0; 3], |gravity| gravity_force(&gravity, scene.fluid.density_kg_per_m3));
+    let weight: [f64; 3] = std::array::from_fn(|a| if without[a] { 0.0 } else { weight[a] });
+    let plus = |f: [f64; 3]| std::array::from_fn(|a| f[a] + weight[a]);
+    match scene.fluid.body_force {
+        None => BodyForce::Constant { force_n_per_m3: weight },
+        Some(BodyForce::Constant { force_n_per_m3 }) => {
+            BodyForce::Constant { force_n_per_m3: plus(force_n_per_m3) }
+        }
+        Some(BodyForce::Oscillating { mean_n_per_m3, amplitude_n_per_m3, frequency_hz, phase_rad }) => {
+            let mean_n_per_m3 = plus(mean_n_per_m3);
+            BodyForce::Oscillating { mean_n_per_m3, amplitude_n_per_m3, frequency_hz, phase_rad }
+        }
+        Some(BodyForce::Stepped { before_n_per_m3, after_n_per_m3, at_s }) => BodyForce::Stepped {
+            before_n_per_m3: plus(before_n_per_m3),
+            after_n_per_m3: plus(after_n_per_m3),
+            at_s,
+        },
+    }
+}
+
+/// Forces whose magnitudes bound the body force at all times.
+#[must_use]
+pub fn extreme_forces(force: &BodyForce) -> [[f64; 3]; 2] {
+    match *force {
+        BodyForce::Constant { force_n_per_m3 } => [force_n_per_m3; 2],
+        BodyForce::Oscillating { mean_n_per_m3: m, amplitude_n_per_m3: a, .. } => {
+            [std::array::from_fn(|i| m[i] + a[i]), std::array::from_fn(|i| m[i] - a[i])]
+        }
+        BodyForce::Stepped { before_n_per_m3, after_n_per_m3, .. } => [before_n_per_m3, after_n_per_m3],
+    }
+}
+
+/// The axis of the strongest force component and whether it points to smaller coordinates; z and true
+/// without a force.
+#[must_use]
+pub fn up(scene: &Scene) -> (Axis, bool) {
+    let mut strongest = (Axis::Z, -0.0_f64);
+    for force in extreme_forces(&total_force(scene)) {
+        for axis in [Axis::Z, Axis::Y, Axis::X] {
+            if force[axis.index()].abs() > strongest.1.abs() {
+                strongest = (axis, force[axis.index()]);
+            }
+        }
+    }
+    (strongest.0, strongest.1 <= 0.0)
+}
+
+/// Euclidean length.
+#[must_use]
+pub fn norm(v: [f64; 3]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}

@@ -1,0 +1,175 @@
+//! Single cells: isolated ones, parked mass, a pattern carried along.
+
+use super::support::{ledger, speed, tank};
+use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use lahar::rheology::Law;
+use lahar::setup::{Face, FlowPoint, FreeSurface, Setup, SolidMotion};
+use lahar::solver::run::{Backend, Run};
+
+const LAW: Law = Law::Newtonian { mu: 0.1 };
+
+/// 1: one interface cell; 2: with force; 3: a liquid and an interface cell; 4: with force; 5: one
+/// that touches the edge of a pillar, with force.
+fn isolated(backend: &dyn Backend, case: f64) -> Result<Sample, VerifyError> {
+    let number = case as u32;
+    let gravity = match number {
+        2 | 4 => 1e-5,
+        // On a cell filled to 0.4 it acts in that proportion: 1/16 is reached after 391 steps.
+        5 => 4e-4,
+        _ => 0.0,
+    };
+    let pair = matches!(number, 3 | 4);
+    let mut setup = tank([8, 8, 8], LAW, gravity, |at| match at {
+        [4, 4, 4] => 0.4,
+        [4, 4, 5] if pair => 1.0,
+        _ => 0.0,
+    });
+    if number == 5 {
+        // One link of the cell meets the edge of a pillar; gravity runs along the pillar.
+        setup.solids =
+            (0..setup.cells()).map(|cell| u8::from(setup.coordinates(cell)[..2] == [3, 3])).collect();
+        setup.solid_motion = vec![SolidMotion::default()];
+    }
+    let mut run = backend.start(&setup)?;
+    run.advance(1000)?;
+    let end = ledger(run.as_ref());
+    let fluid = (end.liquid_cells + end.interface_cells) as f64;
+    let worst = end.mass_residual.abs() + fluid + speed(run.as_ref());
+    Ok(Sample::absolute(case, worst, 0.0)
+        .with("parked", end.parked)
+        .with("mass", end.mass)
+        .with("fluid cells", fluid))
+}
+
+/// H5.
+pub const ISOLATED: Claim = Claim {
+    id: "isolated-cell",
+    title: "A cell or a pair of cells alone in the gas becomes parked mass: all of it, and nothing else",
+    tags: &["F4", "F5", "F6"],
+    measures: "|mass residual| + fluid cells left + largest speed after 1000 steps; 8³ cells",
+    reference: Reference {
+        source: "rule [F6]: without liquid or wall within two links, or without liquid and faster than parked mass in a direction that \
+                 its links do not hold, a cell empties and its mass is parked",
+        uncertainty: 0.0,
+    },
+    metric: Metric::Absolute,
+    ladder: Ladder {
+        parameter: "case: 1 one cell of fill 0.4; 2 with gravity; 3 a full cell above it; 4 with gravity; \
+                    5 one cell at the edge of a pillar, with gravity",
+        short: &[1.0, 2.0, 3.0, 4.0, 5.0],
+        full: &[1.0, 2.0, 3.0, 4.0, 5.0],
+    },
+    order: None,
+    tolerance: Tolerance { value: 1e-13, at: Rung::Every, because: "HARD_CASES H5" },
+    kind: Kind::Verification,
+    measure: isolated,
+};
+
+/// Steps until parked mass reaches the pool below.
+fn arrival(backend: &dyn Backend, gap: f64) -> Result<Sample, VerifyError> {
+    let top = 4 + gap as usize;
+    let setup = tank([5, 5, top + 3], LAW, 1e-5, |[i, j, k]| match (i, j, k) {
+        (_, _, 0..=3) => 1.0,
+        (2, 2, k) if k == top => 0.4,
+        _ => 0.0,
+    });
+    let mut run = backend.start(&setup)?;
+    run.advance(1)?;
+    let caught = ledger(run.as_ref()).parked;
+    let mut steps = 1;
+    while ledger(run.as_ref()).parked != 0.0 && steps < 10_000 {
+        run.advance(1)?;
+        steps += 1;
+    }
+    let end = ledger(run.as_ref());
+    Ok(Sample::absolute(gap, steps as f64, 16.0 * (gap - 1.0) + 1.0)
+        .with("parked after one step", caught)
+        .with("mass residual", end.mass_residual.abs()))
+}
+
+/// Parked mass falls.
+pub const FALLS: Claim = Claim {
+    id: "parked-mass-falls",
+    title: "Parked mass falls one cell every 16 steps and joins the fluid it meets",
+    tags: &["F6"],
+    measures: "steps until nothing is parked",
+    reference: Reference {
+        source: "rule [F6]: it moves in the first step and every 16 steps after; the last move ends beside the surface, \
+                 which takes it in the same step",
+        uncertainty: 0.0,
+    },
+    metric: Metric::Absolute,
+    ladder: Ladder { parameter: "cells of gas in between", short: &[3.0, 6.0], full: &[3.0, 6.0, 12.0] },
+    order: None,
+    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "a count of steps" },
+    kind: Kind::Verification,
+    measure: arrival,
+};
+
+const LENGTH: usize = 32;
+const SPEED: f64 = 0.05;
+
+/// A liquid layer under an interface layer between mirror planes: no gas, no force, uniform flow.
+fn carried_setup(density: f64) -> Setup {
+    let mut setup = Setup::periodic([LENGTH, 1, 2], LAW);
+    setup.faces[2] = [Face::FreeSlip; 2];
+    let wave = |i: usize| libm::sin(2.0 * core::f64::consts::PI * (i as f64 + 0.5) / LENGTH as f64);
+    let fills = (0..2 * LENGTH)
+        .map(|cell| if cell < LENGTH { 1.0 } else { 0.5 + 0.2 * wave(cell - LENGTH) })
+        .collect();
+    setup.free_surface = Some(FreeSurface::new(fills));
+    let point = FlowPoint { density, velocity: [SPEED, 0.0, 0.0], gradient: [[0.0; 3]; 3] };
+    setup.initial = Some(std::sync::Arc::new(move |_| point));
+    setup
+}
+
+/// Phase of the first mode of the fill of the upper layer.
+fn phase(run: &dyn Run) -> f64 {
+    let fields = run.fields();
+    let (mut a, mut b) = (0.0, 0.0);
+    for i in 0..LENGTH {
+        let x = 2.0 * core::f64::consts::PI * (i as f64 + 0.5) / LENGTH as f64;
+        a += fields.fill[LENGTH + i] * libm::sin(x);
+        b += fields.fill[LENGTH + i] * libm::cos(x);
+    }
+    libm::atan2(-b, a)
+}
+
+/// Speed of the pattern over that of the fluid.
+fn carried(backend: &dyn Backend, density: f64) -> Result<Sample, VerifyError> {
+    let mut run = backend.start(&carried_setup(density))?;
+    let start = phase(run.as_ref());
+    // A fifth of the box.
+    let steps = 128;
+    run.advance(steps)?;
+    let turned = phase(run.as_ref()) - start;
+    let k = 2.0 * core::f64::consts::PI / LENGTH as f64;
+    let share = 5.0 / 6.0;
+    let exact = steps as f64 * libm::atan(share * SPEED * libm::sin(k));
+    Ok(Sample::relative(density, turned / exact * share, share)
+        .with("conversions", ledger(run.as_ref()).conversions as f64))
+}
+
+/// Pattern speed.
+pub const CARRIED: Claim = Claim {
+    id: "surface-pattern-carried",
+    title: "A pattern of fills on a uniform flow is carried at 5/6 of the flow, whatever the density",
+    tags: &["F1", "000 Eq 12", "001 Eq 11"],
+    measures: "phase speed of the first mode over 128 steps, over the flow speed and the central difference's own lag",
+    reference: Reference {
+        source: "links of the layer itself and of its mirror image carry 4/6 + 1/6 of the flow; the 1/6 on links to the \
+                 liquid below is not weighted with the fill (A = 1). The physical speed is 1",
+        uncertainty: 0.0,
+    },
+    metric: Metric::Relative,
+    ladder: Ladder { parameter: "density of the fluid", short: &[1.0, 1.02], full: &[0.98, 1.0, 1.02, 1.05] },
+    order: None,
+    tolerance: Tolerance {
+        value: 1e-12,
+        at: Rung::Every,
+        because: "linear equation with a known factor per step; what is left is rounding, 128 steps of 1e-16 over a \
+                  phase of 1",
+    },
+    kind: Kind::PredictedFailure,
+    measure: carried,
+};

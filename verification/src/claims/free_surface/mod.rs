@@ -1,0 +1,72 @@
+//! Claims of the study `free-surface`: mass tracking, rest, ledgers, symmetry, loads.
+
+use crate::golden::Agreement;
+use crate::study::Study;
+
+mod cells;
+mod dam;
+mod drop;
+mod heap;
+mod loads;
+mod mutants;
+mod pool;
+pub(super) mod support;
+mod symmetry;
+mod tilted;
+
+/// The study.
+pub static STUDY: Study = Study {
+    id: "free-surface",
+    title: "The free surface",
+    intro: "Partly filled cells carry a mass of their own; gas is not computed. What is at stake: that no mass is lost \
+            in any of the ways a cell can fill and empty, that fluid that should rest does, and what the surface cells \
+            cost in accuracy.\n\n\
+            Every run keeps a ledger of mass and momentum and stops when a step's mass does not close. The mutants \
+            below are let through that guard, so that the claims have something to measure.",
+    claims: &[
+        pool::REST,
+        pool::PRESSURE,
+        pool::FLICKER,
+        tilted::NEWTONIAN_POOL,
+        tilted::BINGHAM_POOL,
+        heap::HEAP,
+        heap::ADVANCE,
+        heap::QUIET,
+        drop::FULL,
+        drop::INERTIA,
+        drop::BY_FILL,
+        dam::MASS,
+        dam::MOMENTUM,
+        dam::OUTFLOW,
+        dam::FOAM,
+        cells::ISOLATED,
+        cells::FALLS,
+        cells::CARRIED,
+        symmetry::MIRROR,
+        symmetry::HALF,
+        loads::BUOYANCY,
+        loads::WALL,
+    ],
+    exhibits: &[tilted::OPTIONS, heap::MINUTE],
+    mutants: &[
+        mutants::MASSES,
+        mutants::DIFFERENCES,
+        mutants::NEIGHBOUR,
+        mutants::BEFORE_COLLISION,
+        mutants::EXCESS_DROPPED,
+    ],
+    limits: &[
+        "Links between liquid and interface cells carry mass with their full weight, whatever the fill. A pattern of \
+         fills on a uniform flow is therefore carried at 5/6 of the flow, and the flux through a column with a surface \
+         cell of fill φ is too large by (1 − φ)/6 of a cell: first order in the spacing where the surface varies.",
+        "In a pool whose surface is oblique to the grid a current of order F/mu remains, up to 1.5e-4 of √(gH) at \
+         τ = 1.1 (10 degrees) and 5e-4 at τ = 0.56: above the aim of 1e-4. It does not grow. In Bingham fluid it is \
+         below 1e-5.",
+        "The force rule with inertia, made for free fall, lets a tilted pool of Bingham fluid speed up slowly: it is \
+         not for fluid at rest. Gravity by fill makes a drop fall too slowly by about 1.5/R.",
+        "The foot of a resting heap settles into the grid by up to a quarter of a cell; at 6 mm that is 1 mm within \
+         30 s, at 0.04 mm/s, then nothing. Mass-weighted, the fluid moves at 0.015 mm/s.",
+        "A parked mass falls at one cell in 16 steps whatever gravity is.",
+    ],
+    agreement: Agreement::Bits,
+};

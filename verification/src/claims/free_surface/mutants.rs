@@ -1,0 +1,54 @@
+//! Wrong variants of the surface that the claims of this study must catch: misprints of the papers.
+
+use crate::claims::mutants_physics::{Mistake, Mistaken};
+use crate::mutant::{Mutant, Subject};
+
+/// Wetted share from masses.
+pub const MASSES: Mutant = Mutant {
+    id: "exchange-of-masses",
+    erratum: "ERRATA 20 (000 Eq 12)",
+    description: "The wetted share of a link is the mean of the two masses instead of the mean of the two fills.",
+    caught_by: "surface-pattern-carried",
+    rung: None,
+    subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ExchangeOfMasses))),
+};
+
+/// Wetted share with a minus.
+pub const DIFFERENCES: Mutant = Mutant {
+    id: "exchange-of-differences",
+    erratum: "ERRATA 21 (004 Eq 3.31)",
+    description: "The wetted share of a link is half the difference of the two fills: both cells gain the same mass.",
+    caught_by: "dam-break-mass",
+    rung: Some(500.0),
+    subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ExchangeOfDifferences))),
+};
+
+/// Reconstruction from the wrong node.
+pub const NEIGHBOUR: Mutant = Mutant {
+    id: "reconstruction-at-the-neighbour",
+    erratum: "ERRATA 16 (004 Eq 3.32)",
+    description: "The missing populations are reconstructed from the cell on the liquid side.",
+    caught_by: "pool-at-rest",
+    rung: Some(0.5),
+    subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ReconstructionAtNeighbour))),
+};
+
+/// Exchange of other populations than those that stream.
+pub const BEFORE_COLLISION: Mutant = Mutant {
+    id: "exchange-before-collision",
+    erratum: "ERRATA 17 (000 Eq 11, 004 Eq 3.30)",
+    description: "Mass is exchanged with the populations before collision, other ones than those that stream.",
+    caught_by: "dam-break-mass",
+    rung: Some(500.0),
+    subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ExchangeBeforeCollision))),
+};
+
+/// Excess forgotten.
+pub const EXCESS_DROPPED: Mutant = Mutant {
+    id: "excess-dropped",
+    erratum: "ERRATA 25 (000 text)",
+    description: "The mass that a conversion leaves over is dropped.",
+    caught_by: "dam-break-mass",
+    rung: Some(500.0),
+    subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ExcessDropped))),
+};

@@ -1,4 +1,0 @@
-//! Study `slump`: heaps and columns of yield-stress fluid that come to rest on a floor.
-fn main() -> std::process::ExitCode {
-    lahar::verify::study::main(&lahar::verify::claims::slump::STUDY, &lahar::solver::choose::Best)
-}
