@@ -237,7 +237,7 @@ fn report_shows_claims_mutants_limits_and_unchecked_equations() {
         missing: vec!["not-yet".to_owned()],
     };
     let text = render(&[chapter]);
-    insta::with_settings!({ snapshot_path => "../golden/snapshots", prepend_module_to_snapshot => false }, {
+    insta::with_settings!({ snapshot_path => "../../golden/snapshots", prepend_module_to_snapshot => false }, {
         insta::assert_snapshot!("report_machinery", text);
     });
 }
