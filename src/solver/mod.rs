@@ -3,9 +3,12 @@
 pub mod books;
 pub mod check;
 pub mod choose;
+pub mod compiled;
 pub mod fast;
 pub mod initial;
+pub mod observe;
 pub mod physics;
 pub mod plain;
+pub mod pool;
 pub mod run;
 pub mod steady;

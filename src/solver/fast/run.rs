@@ -20,7 +20,7 @@ use crate::lattice::moments::density_excess;
 use crate::setup::{Setup, WallRule, YieldTreatment};
 use crate::solver::initial;
 use crate::solver::physics::Physics;
-use crate::solver::plain::starting_omega;
+use crate::solver::pool::{self, each};
 use crate::solver::run::{StartError, Stopped};
 
 /// Populations above this many bytes do not fit the caches: stores then go past them.
@@ -77,9 +77,6 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         if !P::VARIES && physics.constant_omega().is_none() {
             return Err(unsupported("several Newtonian fluids in the pass made for one"));
         }
-        let pool = (setup.threads > 1)
-            .then(|| rayon::ThreadPoolBuilder::new().num_threads(setup.threads).build().ok())
-            .flatten();
         let layout = Layout::new(setup.extents, E::PER_LINE);
         let mut run = Self {
             setup: setup.clone(),
@@ -101,7 +98,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             step: 0,
             seconds: [0.0; 5],
             fluid_cells: 0,
-            pool,
+            pool: pool::start(setup.threads),
         };
         if setup.free_surface.is_some() || setup.grains.is_some() {
             run.start_surface()?;
@@ -161,7 +158,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                     old.get_mut()[index::<E>(local, i)] = E::from_f64(*f);
                 }
                 if let Some(omega) = lag.get_mut(local) {
-                    *omega = starting_omega(setup, cell);
+                    *omega = initial::starting_omega(setup, cell);
                 }
             }
             count
@@ -356,17 +353,5 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             self.advance_one()?;
         }
         Ok(())
-    }
-}
-
-/// Runs `work` on every item, on the pool if there is one; results in order.
-pub(super) fn each<I: Send, T: Send>(
-    pool: Option<&rayon::ThreadPool>,
-    items: Vec<I>,
-    work: impl Fn(I) -> T + Sync + Send,
-) -> Vec<T> {
-    match pool {
-        Some(pool) => pool.install(|| items.into_par_iter().map(work).collect()),
-        None => items.into_iter().map(work).collect(),
     }
 }

@@ -6,6 +6,7 @@ use super::kernel::{Own, Task, index};
 use super::layout::{Layout, NONE};
 use super::registers::Registers;
 use super::surface::Lanes;
+use crate::free_surface::exchange::gas_link;
 use crate::lattice::moments::{Moments, density_excess};
 use crate::lattice::{Q, opposite};
 use crate::solver::physics::Physics;
@@ -334,7 +335,7 @@ pub fn open_link<P: Physics, E: Element>(
     let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
     let u = rim.get(usize::from(link.rim)).map_or([0.0; 3], |kept| kept.velocity);
     if crate::lattice::equilibrium::dot(out, &u) > 0.0 {
-        stored::<E>(task.physics.gas_link(leaving, out, &u, || leaving))
+        stored::<E>(gas_link(leaving, out, &u))
     } else {
         leaving
     }

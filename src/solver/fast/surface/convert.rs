@@ -13,8 +13,9 @@ use crate::lattice::moments::{density_excess, moments};
 use crate::setup::YieldTreatment;
 use crate::solver::fast::element::Element;
 use crate::solver::fast::layout::NONE;
-use crate::solver::fast::run::{FastRun, each};
+use crate::solver::fast::run::FastRun;
 use crate::solver::physics::Physics;
+use crate::solver::pool::each;
 
 impl<P: Physics, E: Element> FastRun<P, E> {
     /// Marks, conversions, refill and excess of one step; then φ of every interface cell.
@@ -204,8 +205,5 @@ impl<P: Physics, E: Element> Cells for FastRun<P, E> {
         if let Some(record) = self.record_of_mut(cell) {
             record.mass += mass;
         }
-    }
-    fn excess(&self, mass: f64) -> f64 {
-        self.physics.excess(mass)
     }
 }

@@ -5,6 +5,7 @@ use super::{InterfaceCell, Surface};
 use crate::boundary::links::Source;
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::touch;
+use crate::free_surface::exchange::{gas_link, link_mass, wetted_share};
 use crate::free_surface::ledger::VectorSum;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, opposite};
@@ -13,9 +14,10 @@ use crate::solver::fast::block::{Block, From, Link, numbers_around};
 use crate::solver::fast::element::Element;
 use crate::solver::fast::kernel::{Task, index};
 use crate::solver::fast::layout::NONE;
-use crate::solver::fast::run::{FastRun, each};
+use crate::solver::fast::run::FastRun;
 use crate::solver::fast::stage::{Around, after, density_at_wall, open_link, wall_link};
 use crate::solver::physics::Physics;
+use crate::solver::pool::each;
 
 /// What a block brought in.
 struct Brought {
@@ -85,7 +87,6 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
     #[inline(never)]
     pub(super) fn stream(&self, cell: &mut InterfaceCell, entries: &mut Entries) {
         let local = usize::from(cell.local);
-        let physics = self.task.physics;
         let own = after(self.task, self.number, local);
         let rho = 1.0 + density_excess(&own);
         // An interface cell's own φ; that of a liquid neighbour is not used.
@@ -126,7 +127,7 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                     }
                     if gas {
                         touches |= touch::GAS;
-                        arrived[i] = physics.gas_link(own[out], out, &cell.velocity, || own[out]);
+                        arrived[i] = gas_link(own[out], out, &cell.velocity);
                     } else {
                         if kind == Kind::Liquid {
                             touches |= touch::LIQUID;
@@ -134,8 +135,8 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                         let number = number as usize;
                         arrived[i] = self.task.old[number].get()[index::<E>(local, direction)].to_f64();
                         let other = self.surface.fill[number][local];
-                        let share = physics.wetted_share(kind, fill, other, || [0.0; 2]);
-                        gained[i] = physics.link_mass(share, arrived[i], own[out], || [0.0; 2]);
+                        let share = wetted_share(kind, fill, other);
+                        gained[i] = link_mass(share, arrived[i], own[out]);
                     }
                     Source::Cell { cell: 0, direction: direction as u8 }
                 }

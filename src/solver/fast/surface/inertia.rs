@@ -3,7 +3,7 @@
 use super::super::block::{Block, From, numbers_around};
 use super::super::element::Element;
 use super::super::layout::NONE;
-use super::super::run::{FastRun, each};
+use super::super::run::FastRun;
 use super::InterfaceCell;
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::mirrored;
@@ -11,6 +11,7 @@ use crate::free_surface::force::smooth;
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
 use crate::solver::physics::Physics;
+use crate::solver::pool::each;
 
 /// Three numbers per cell of a block: first those along x, then y, then z.
 type Vectors = Vec<f64>;

@@ -260,9 +260,6 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let cells = surface.counts[0] + surface.counts[1];
         let rounding = self.setup.precision.rounding();
         let Some((residual, bound)) = surface.books.close(mass, cells, rounding) else { return Ok(()) };
-        if self.physics.is_mutant() {
-            return Ok(());
-        }
         let cell = self.layout.cell(self.blocks[worst.0].origin, worst.1);
         Err(Stopped { step: self.step, cell, what: Runaway::Ledger { residual, bound }, tau: f64::NAN })
     }

@@ -4,7 +4,7 @@
 use super::InterfaceCell;
 use super::exchange::Streaming;
 use crate::free_surface::conversion::touch;
-use crate::free_surface::exchange::share_with;
+use crate::free_surface::exchange::{gas_link, link_mass, share_with};
 use crate::lane::Lane;
 use crate::lattice::moments::density_excess;
 use crate::lattice::unroll::{directions, three};
@@ -54,9 +54,8 @@ impl Columns {
 
     /// Populations, Δm and neighbours of the lanes of one part of a pack.
     #[inline(always)]
-    fn stream<R: Registers, P: Physics>(
+    fn stream<R: Registers>(
         &mut self,
-        physics: &P,
         near: &Near<R::Element>,
         sources: &Sources,
         local: usize,
@@ -86,9 +85,9 @@ impl Columns {
                 let dry = other.less(zero);
                 gas = <R::Pack as Lane>::select(dry, one, gas);
                 liquid = <R::Pack as Lane>::select(one.less(other), one, liquid);
-                let back = physics.gas_link(own[out], out, &u, || own[out]);
+                let back = gas_link(own[out], out, &u);
                 let arrived = <R::Pack as Lane>::select(dry, back, from[i]);
-                let mass = physics.link_mass(share_with(fill, other), from[i], own[out], || [zero; 2]);
+                let mass = link_mass(share_with(fill, other), from[i], own[out]);
                 gained[i] = <R::Pack as Lane>::select(dry, zero, mass);
                 // Arrives with c_i f_i, left with −c_i f_ī.
                 let brought = <R::Pack as Lane>::select(dry, arrived + own[out], zero);
@@ -180,7 +179,7 @@ pub fn stream_block<R: Registers, P: Physics>(
         for part in (0..line).step_by(R::WIDTH) {
             if together >> part & (u16::MAX >> (16 - R::WIDTH)) != 0 {
                 let local = pack * line;
-                columns.stream::<R, P>(streaming.task.physics, near, &sources[pack], local, part);
+                columns.stream::<R>(near, &sources[pack], local, part);
             }
         }
         columns.hand_out(cells, alone, line, entries);

@@ -116,20 +116,4 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let (mass, momentum) = self.mass_and_momentum();
         Some(surface.books.ledger(mass, momentum, surface.parked.values().sum(), surface.counts))
     }
-
-    pub(in crate::solver::fast) fn hash_rest(&self, hasher: &mut Hasher) {
-        for (cell, mass) in self.surface.iter().flat_map(|surface| &surface.parked) {
-            hasher.number(f64::from(*cell));
-            hasher.number(*mass);
-        }
-        for (_, number, local) in self.in_order() {
-            let inertia = self.surface.as_ref().and_then(|surface| surface.inertia.as_ref());
-            for a in inertia.map(|inertia| inertia.acceleration_of(number, local)).iter().flatten() {
-                hasher.number(*a);
-            }
-            if let Some(omega) = self.lag[number].get(local) {
-                hasher.number(*omega);
-            }
-        }
-    }
 }

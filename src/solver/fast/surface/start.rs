@@ -16,7 +16,6 @@ use crate::solver::fast::run::FastRun;
 use crate::solver::fast::surface::InterfaceCell;
 use crate::solver::initial::{self, REST};
 use crate::solver::physics::Physics;
-use crate::solver::plain::starting_omega;
 use crate::solver::run::{Load, StartError};
 
 impl<P: Physics, E: Element> FastRun<P, E> {
@@ -134,7 +133,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             let at = layout.cell(self.blocks[number].origin, local);
             let cell = setup.index(at);
             if let Some(omega) = self.lag[number].get_mut(local) {
-                *omega = starting_omega(setup, cell);
+                *omega = initial::starting_omega(setup, cell);
             }
             if !kinds[cell].is_fluid() {
                 continue;

@@ -109,6 +109,10 @@ impl Physics for WrongPhysics {
         self.base.odd_departure(h, m)
     }
 
+    fn wall_cubic(&self, i: usize, rho: f64, u_wall: &[f64; 3]) -> f64 {
+        self.base.wall_cubic(i, rho, u_wall)
+    }
+
     fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L {
         self.base.tangent_fluidity(fluid, rho, omega, q)
     }
