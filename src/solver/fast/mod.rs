@@ -17,8 +17,6 @@ pub mod stores;
 pub mod surface;
 #[cfg(target_arch = "x86_64")]
 mod x86;
-#[cfg(target_arch = "x86_64")]
-mod x86_single;
 
 use crate::collision::{CentralMoment, CollisionChoice};
 use crate::setup::{Precision, Setup};

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::block::{Block, From, Place, Velocities, numbers_around};
+use super::block::{Block, Origin, Place, Velocities, numbers_around};
 use super::element::{Aligned, Element};
 use super::instructions::{Chosen, Passes};
 use super::kernel::{Outcome, Own, Task, block_len, index};
@@ -333,16 +333,16 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 continue;
             };
             f[i] = match link.from {
-                From::Cell { cell, direction } => {
+                Origin::Cell { cell, direction } => {
                     let number = self.layout.block_at(cell.block as usize) as usize;
                     self.old[number].get()[index::<E>(cell.local as usize, usize::from(direction))].to_f64()
                 }
-                From::Wall { velocity, .. } => {
+                Origin::Wall { velocity, .. } => {
                     let u = &self.velocities.list[velocity as usize];
                     let rho = 1.0 + density_excess(&own);
                     wall_link(&task, number, &self.rim[number], link, rho, u)
                 }
-                From::Open => open_link(&task, number, &self.rim[number], link),
+                Origin::Open => open_link(&task, number, &self.rim[number], link),
             };
         }
         f

@@ -1,13 +1,16 @@
 //! Packs that are not ordinary: their populations are put together one by one before they are collided.
 
-use super::block::{Block, From, Link, numbers_around};
+use super::block::{Block, Link, Origin, numbers_around};
 use super::element::{Aligned, Element};
 use super::kernel::{Own, Task, index};
 use super::layout::{Layout, NONE};
 use super::registers::Registers;
+use super::sources::Sources;
+use super::stores;
 use super::surface::Lanes;
 use crate::free_surface::exchange::gas_link;
 use crate::lattice::moments::{Moments, density_excess};
+use crate::lattice::unroll::{directions, three};
 use crate::lattice::{Q, opposite};
 use crate::solver::physics::Physics;
 
@@ -83,9 +86,9 @@ impl<'a, E: Element> Around<'a, E> {
 #[repr(align(64))]
 pub struct Stage<E> {
     /// Populations before collision, then after.
-    pub populations: [[E; MOST]; Q],
+    populations: [[E; MOST]; Q],
     /// Body force; filled where the pack has interface cells.
-    pub force: [[f64; MOST]; 3],
+    force: [[f64; MOST]; 3],
     /// u, ω⁺ and ρ − 1 of this collision.
     velocity: [[f64; MOST]; 3],
     omega: [f64; MOST],
@@ -102,6 +105,15 @@ impl<E: Element> Stage<E> {
             velocity: [[0.0; MOST]; 3],
             omega: [0.0; MOST],
             d_rho: [0.0; MOST],
+        }
+    }
+
+    /// Gathers a pack where rows run along x.
+    #[inline(always)]
+    pub fn gather_straight<R: Registers<Element = E>>(&mut self, around: &Around<E>, sources: &Sources) {
+        for part in (0..E::PER_LINE).step_by(R::WIDTH) {
+            let h = super::sources::gather::<R>(around, sources, part);
+            self.store::<R>(&h, part);
         }
     }
 
@@ -164,19 +176,19 @@ impl<E: Element> Stage<E> {
                 continue;
             }
             let value = match link.from {
-                From::Cell { cell, direction } => {
+                Origin::Cell { cell, direction } => {
                     let number = task.layout.block_at(cell.block as usize);
                     task.old[number as usize].get()[index::<E>(cell.local as usize, usize::from(direction))]
                 }
-                From::Wall { .. } | From::Open if returned.is_some() => {
+                Origin::Wall { .. } | Origin::Open if returned.is_some() => {
                     E::from_f64(returned.map_or(0.0, |values| values[place]))
                 }
-                From::Wall { velocity, .. } => {
+                Origin::Wall { velocity, .. } => {
                     let u = &task.velocities[velocity as usize];
                     let rho = density_at_wall(task, own.number, at, u);
                     E::from_f64(wall_link(task, own.number, own.rim, link, rho, u))
                 }
-                From::Open => E::from_f64(open_link(task, own.number, own.rim, link)),
+                Origin::Open => E::from_f64(open_link(task, own.number, own.rim, link)),
             };
             self.populations[usize::from(link.direction)][lane] = value;
         }
@@ -216,6 +228,46 @@ impl<E: Element> Stage<E> {
                 for (f, column) in kept.f.iter_mut().zip(&self.populations) {
                     *f = column[lane].to_f64();
                 }
+            }
+        }
+    }
+
+    /// Populations of one part of the pack.
+    #[inline(always)]
+    pub fn load<R: Registers<Element = E>>(&self, part: usize) -> [R::Pack; Q] {
+        directions(
+            #[inline(always)]
+            |i| R::load(&self.populations[i][part..]),
+        )
+    }
+
+    /// Body force of one part of the pack.
+    #[inline(always)]
+    pub fn load_force<R: Registers<Element = E>>(&self, part: usize) -> [R::Pack; 3] {
+        three(
+            #[inline(always)]
+            |a| R::load_wide(&self.force[a][part..]),
+        )
+    }
+
+    /// Puts the populations of one part of the pack here.
+    #[inline(always)]
+    pub fn store<R: Registers<Element = E>>(&mut self, populations: &[R::Pack; Q], part: usize) {
+        for i in 0..Q {
+            R::store(populations[i], &mut self.populations[i][part..]);
+        }
+    }
+
+    /// Writes the populations line by line; `to`: the numbers of the pack.
+    #[inline(always)]
+    pub fn write(&self, past_cache: bool, to: &mut [E]) {
+        let line = E::PER_LINE;
+        for i in 0..Q {
+            let to = &mut to[i * line..][..line];
+            if past_cache {
+                stores::line_past_cache(to, &self.populations[i][..line]);
+            } else {
+                to.copy_from_slice(&self.populations[i][..line]);
             }
         }
     }

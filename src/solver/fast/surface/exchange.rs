@@ -10,7 +10,7 @@ use crate::free_surface::ledger::VectorSum;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, opposite};
 use crate::solver::books::{CellEntries, Crossing, Entries};
-use crate::solver::fast::block::{Block, From, Link, numbers_around};
+use crate::solver::fast::block::{Block, Link, Origin, numbers_around};
 use crate::solver::fast::element::Element;
 use crate::solver::fast::kernel::{Task, index};
 use crate::solver::fast::layout::NONE;
@@ -166,13 +166,13 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
             return End::Cell { number: self.around[entry], local: from, direction: i };
         };
         match link.from {
-            From::Cell { cell, direction } => End::Cell {
+            Origin::Cell { cell, direction } => End::Cell {
                 number: self.task.layout.block_at(cell.block as usize),
                 local: cell.local as usize,
                 direction: usize::from(direction),
             },
-            From::Wall { velocity, body } => End::Wall { velocity, body, link },
-            From::Open => End::Open(link),
+            Origin::Wall { velocity, body } => End::Wall { velocity, body, link },
+            Origin::Open => End::Open(link),
         }
     }
 

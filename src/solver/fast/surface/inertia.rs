@@ -1,6 +1,6 @@
 //! Accelerations for the surface force with inertia \[F3\]; nothing of this exists without that rule.
 
-use super::super::block::{Block, From, numbers_around};
+use super::super::block::{Block, Origin, numbers_around};
 use super::super::element::Element;
 use super::super::layout::NONE;
 use super::super::run::FastRun;
@@ -141,11 +141,11 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                     (around[entry], from, i)
                 }
                 Some(link) => match link.from {
-                    From::Cell { cell, direction } => {
+                    Origin::Cell { cell, direction } => {
                         let number = self.layout.block_at(cell.block as usize);
                         (number, cell.local as usize, usize::from(direction))
                     }
-                    From::Wall { .. } | From::Open => continue,
+                    Origin::Wall { .. } | Origin::Open => continue,
                 },
             };
             if number == NONE || surface.kinds[number as usize][from] != Kind::Liquid {
