@@ -1,6 +1,7 @@
 //! State, steps and the backends that take them.
 
 pub mod books;
+pub mod cell;
 pub mod check;
 pub mod choose;
 pub mod compiled;

@@ -1,6 +1,6 @@
 //! What a run tells about itself: fields, sums and hash, in the order of the box whatever its arrays are.
 
-use super::plain::cell::State;
+use super::cell::State;
 use super::run::{Fields, Run, Totals};
 use crate::fingerprint::{Fingerprint, Hasher};
 use crate::lattice::Q;

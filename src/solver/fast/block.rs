@@ -329,3 +329,11 @@ fn is_plain(setup: &Setup, layout: &Layout, place: usize) -> bool {
 pub fn numbers_around(layout: &Layout, place: usize) -> [u32; 27] {
     layout.around(place).map(|at| layout.block_at(at))
 }
+
+/// Puts the value of a block at its number, which is at most one beyond the end.
+pub(in crate::solver::fast) fn put<T>(list: &mut Vec<T>, number: usize, value: T) {
+    match list.get_mut(number) {
+        Some(place) => *place = value,
+        None => list.push(value),
+    }
+}

@@ -7,92 +7,25 @@
 //! lines of the blocks before and behind it in x are read once for both. Hence 304 to 324 bytes: counted from
 //! the layout, not measured at the memory, and without the entries of page tables.
 
+use super::around::Around;
 use super::block::Block;
-use super::element::{Aligned, Element};
-use super::layout::Layout;
+use super::element::{Aligned, Element, MOST};
 use super::registers::Registers;
-use super::rim::Rim;
 use super::sources::{Sources, gather};
-use super::stage::{Around, Class, MOST, Stage};
+use super::stage::{Class, Stage};
 use super::stores;
-use super::surface::{InterfaceCell, SurfaceView};
+use super::task::{Outcome, Own, Task};
 use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::moments::Moments;
 use crate::lattice::unroll::three;
-use crate::setup::Setup;
+use crate::solver::cell::runaway;
 use crate::solver::physics::Physics;
-use crate::solver::plain::cell::runaway;
 use crate::solver::run::Stopped;
 
 /// Packs between asking for a line of another block and using it: two microseconds, several times what memory
 /// takes. Lines of the block itself are asked for a whole block earlier.
 const FAR: usize = 16;
-
-/// What all blocks of a pass share; everything here is only read.
-pub struct Task<'a, P, E> {
-    pub setup: &'a Setup,
-    pub physics: &'a P,
-    pub layout: &'a Layout,
-    /// Where packs are gathered from.
-    pub sources: &'a [Sources],
-    pub blocks: &'a [Block],
-    /// Populations after the last collision, or before the first one.
-    pub old: &'a [Aligned<E>],
-    /// Whether `old` holds populations before the first collision.
-    pub fresh: bool,
-    /// Body force of this step.
-    pub force: [f64; 3],
-    pub step: u64,
-    /// Wall velocities by number.
-    pub velocities: &'a [[f64; 3]],
-    /// Whether stores go past the cache.
-    pub past_cache: bool,
-    /// Free surface, if any.
-    pub surface: Option<SurfaceView<'a>>,
-}
-
-/// What a block owns in a pass.
-pub struct Own<'a, E> {
-    pub number: usize,
-    /// Populations after this collision.
-    pub new: &'a mut Aligned<E>,
-    /// Cells at walls and open faces; empty if nothing is kept of them.
-    pub rim: &'a mut [Rim],
-    /// ρ − 1 by cell; empty unless somebody asks for it.
-    pub density: &'a mut [f64],
-    /// ω⁺ of the previous step; empty unless lagged.
-    pub lag: &'a mut [f64],
-    /// u by cell, x then y then z; empty unless the surface force has inertia.
-    pub velocity: &'a mut [f64],
-    /// Interface cells of the block.
-    pub interface: &'a mut [InterfaceCell],
-}
-
-/// What a pass over a block found.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Outcome {
-    /// First cell, by number in the box, that fails the guard.
-    pub failed: Option<(usize, Stopped)>,
-    /// Σ(ρ − 1) over liquid cells; only with a free surface.
-    pub liquid_excess: f64,
-}
-
-/// Place of population `i` of a cell among the numbers of its block.
-///
-/// The 19 lines of a pack follow each other, then those of the next pack: a pass walks through memory from
-/// front to back, on one page after the other, instead of on 38 pages at once.
-#[inline(always)]
-#[must_use]
-pub const fn index<E: Element>(local: usize, i: usize) -> usize {
-    (local / E::PER_LINE * Q + i) * E::PER_LINE + local % E::PER_LINE
-}
-
-/// Numbers per block.
-#[must_use]
-pub fn block_len(layout: &Layout) -> usize {
-    Q * layout.block_cells()
-}
 
 /// Collides every fluid cell of a block.
 #[inline(always)]
@@ -104,7 +37,7 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
     }
     let block = &task.blocks[own.number];
     let line = R::Element::PER_LINE;
-    let around = Around::new(task, own.number);
+    let around = task.around(own.number);
     let ahead = Ahead::new(task, own.number, &around);
     let straight = !task.sources.is_empty() && !task.fresh;
     let mut stage = Stage::new();
@@ -186,7 +119,7 @@ impl<'a, E: Element> Ahead<'a, E> {
             coming: [1, 2].map(|k| task.old.get(number + k).map_or(&[][..], Aligned::get)),
             sources: task.sources,
             around,
-            around_next: Around::next(task, number),
+            around_next: task.around_next(number),
         }
     }
 

@@ -1,11 +1,13 @@
 //! The fast backend: the same equations in packs, in blocks that hold fluid, on several threads.
 
+pub mod around;
 pub mod block;
 pub mod element;
 mod grains;
 pub mod instructions;
 pub mod kernel;
 pub mod layout;
+pub mod links;
 pub mod memory;
 pub mod registers;
 mod report;
@@ -15,6 +17,8 @@ pub mod sources;
 pub mod stage;
 pub mod stores;
 pub mod surface;
+pub mod task;
+mod walls;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 

@@ -1,15 +1,18 @@
 //! What a run in blocks tells about itself: the same sums in the same order as the plain backend.
 
+use super::block::Block;
 use super::element::{Aligned, Element};
+use super::memory::sources_bytes;
 use super::run::FastRun;
+use super::surface::state::Surface;
 use crate::coupling::Immersed;
 use crate::fingerprint::{Fingerprint, Hasher};
 use crate::lattice::Q;
 use crate::lattice::moments::Moments;
 use crate::setup::Setup;
+use crate::solver::cell::{self, State};
 use crate::solver::observe::{self, Observed};
 use crate::solver::physics::Physics;
-use crate::solver::plain::cell::{self, State};
 use crate::solver::run::{Fields, Ledger, Load, Run, Stopped, Totals};
 
 impl<P: Physics, E: Element> FastRun<P, E> {
@@ -166,10 +169,10 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
         let populations: u64 = self.old.iter().chain(&self.new).map(Aligned::bytes).sum();
         let rim: usize = self.rim.iter().map(|rim| size_of_val(rim.as_slice())).sum();
         let numbers: usize = self.density.iter().chain(&self.lag).map(|n| size_of_val(n.as_slice())).sum();
-        let blocks: u64 = self.blocks.iter().map(super::block::Block::bytes).sum();
+        let blocks: u64 = self.blocks.iter().map(Block::bytes).sum();
         let marks = self.setup.solids.len() + self.setup.fluid_of_cell.len();
-        let surface = self.surface.as_ref().map_or(0, super::surface::Surface::bytes);
-        let sources = super::memory::sources_bytes(&self.layout, E::PER_LINE);
+        let surface = self.surface.as_ref().map_or(0, Surface::bytes);
+        let sources = sources_bytes(&self.layout, E::PER_LINE);
         let grains = self.grains.as_ref().map_or(0, |grains| grains.bytes());
         populations
             + (rim + numbers + marks) as u64

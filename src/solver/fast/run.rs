@@ -4,16 +4,17 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::block::{Block, Origin, Place, Velocities, numbers_around};
-use super::element::{Aligned, Element};
+use super::block::{Block, Origin, Place, Velocities, numbers_around, put};
+use super::element::{Aligned, Element, index};
 use super::instructions::{Chosen, Passes};
-use super::kernel::{Outcome, Own, Task, block_len, index};
 use super::layout::{Layout, NONE};
-use super::rim::{Rim, WallTask, correct};
+use super::links::{after, open_link, wall_link};
+use super::rim::{Rim, WallTask};
 use super::sources::Sources;
-use super::stage::{after, open_link, wall_link};
 use super::stores;
-use super::surface::{Surface, put};
+use super::surface::state::Surface;
+use super::task::{Outcome, Own, Task};
+use super::walls::correct;
 use crate::coupling::Immersed;
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
@@ -133,8 +134,8 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         put(&mut self.density, number, vec![0.0; if walls { cells } else { 0 }]);
         let lagged = matches!(self.setup.yielding, YieldTreatment::LaggedClamped { .. });
         put(&mut self.lag, number, vec![0.0; if lagged { cells } else { 0 }]);
-        put(&mut self.old, number, Aligned::zeros(block_len(&self.layout)));
-        put(&mut self.new, number, Aligned::zeros(block_len(&self.layout)));
+        put(&mut self.old, number, Aligned::zeros(self.layout.block_len()));
+        put(&mut self.new, number, Aligned::zeros(self.layout.block_len()));
         put(&mut self.blocks, number, block);
         Some(number)
     }

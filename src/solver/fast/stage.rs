@@ -1,21 +1,19 @@
 //! Packs that are not ordinary: their populations are put together one by one before they are collided.
 
-use super::block::{Block, Link, Origin, numbers_around};
-use super::element::{Aligned, Element};
-use super::kernel::{Own, Task, index};
-use super::layout::{Layout, NONE};
+use super::around::Around;
+use super::block::{Block, Origin};
+use super::element::{Element, MOST, index};
+use super::layout::Layout;
+use super::links::{density_at_wall, open_link, wall_link};
 use super::registers::Registers;
-use super::sources::Sources;
+use super::sources::{self, Sources};
 use super::stores;
-use super::surface::Lanes;
-use crate::free_surface::exchange::gas_link;
-use crate::lattice::moments::{Moments, density_excess};
+use super::surface::record::Lanes;
+use super::task::{Own, Task};
+use crate::lattice::Q;
+use crate::lattice::moments::Moments;
 use crate::lattice::unroll::{directions, three};
-use crate::lattice::{Q, opposite};
 use crate::solver::physics::Physics;
-
-/// Most cells side by side: a line of f32.
-pub const MOST: usize = 16;
 
 /// What the cells of a pack are.
 #[derive(Clone, Copy, Debug)]
@@ -41,41 +39,6 @@ impl Class {
         let all = u16::MAX >> (16 - line);
         let links = block.first_link[pack] != block.first_link[pack + 1];
         Self { fluid, interface, kept, ordinary: fluid == all && kept == 0 && !links }
-    }
-}
-
-/// The populations around a block: 27 slices, the block's own where there is none.
-pub struct Around<'a, E> {
-    /// As [`Layout::around`].
-    pub slices: [&'a [E]; 27],
-}
-
-impl<'a, E: Element> Around<'a, E> {
-    /// Around a block.
-    pub fn new<P>(task: &Task<'a, P, E>, number: usize) -> Self {
-        let old: &'a [Aligned<E>] = task.old;
-        let own = old[number].get();
-        // What the unchecked loads of `sources::gather` rely on.
-        assert_eq!(own.len(), super::kernel::block_len(task.layout));
-        let numbers = numbers_around(task.layout, task.blocks[number].place);
-        let slices = numbers.map(|n| match n {
-            NONE => own,
-            n => Some(old[n as usize].get()).filter(|other| other.len() == own.len()).unwrap_or(own),
-        });
-        Self { slices }
-    }
-
-    /// Around the block after this one, if there is one that holds anything.
-    #[inline]
-    pub fn next<P>(task: &Task<'a, P, E>, number: usize) -> Option<Self> {
-        let next = task.old.get(number + 1)?;
-        (next.get().len() == task.old[number].get().len()).then(|| Self::new(task, number + 1))
-    }
-
-    /// The populations of one of the 27.
-    #[inline(always)]
-    pub fn entry(&self, at: usize) -> &'a [E] {
-        super::stores::entry(&self.slices, at)
     }
 }
 
@@ -112,7 +75,7 @@ impl<E: Element> Stage<E> {
     #[inline(always)]
     pub fn gather_straight<R: Registers<Element = E>>(&mut self, around: &Around<E>, sources: &Sources) {
         for part in (0..E::PER_LINE).step_by(R::WIDTH) {
-            let h = super::sources::gather::<R>(around, sources, part);
+            let h = sources::gather::<R>(around, sources, part);
             self.store::<R>(&h, part);
         }
     }
@@ -331,64 +294,5 @@ fn gather_row<E: Element>(layout: &Layout, around: &Around<E>, i: usize, local: 
             to[line - 1] = if x + line == row { at(entry + 1, first) } else { at(entry, first + x + line) };
         }
         _ => to.copy_from_slice(own),
-    }
-}
-
-/// Populations of a cell after the last collision.
-#[inline]
-pub fn after<P, E: Element>(task: &Task<P, E>, number: usize, local: usize) -> [f64; Q] {
-    let own = task.old[number].get();
-    std::array::from_fn(|i| own[index::<E>(local, i)].to_f64())
-}
-
-/// ρ of a cell after the last collision, for [`wall_link`]; 1 where the wall rests and ρ is multiplied by zero.
-#[inline]
-pub fn density_at_wall<P, E: Element>(
-    task: &Task<P, E>,
-    number: usize,
-    local: usize,
-    velocity: &[f64; 3],
-) -> f64 {
-    if *velocity == [0.0; 3] { 1.0 } else { 1.0 + density_excess(&after(task, number, local)) }
-}
-
-/// What a wall sends back along a link \[B1\] \[B3\], as it is stored.
-#[inline]
-pub fn wall_link<P: Physics, E: Element>(
-    task: &Task<P, E>,
-    number: usize,
-    rim: &[super::rim::Rim],
-    link: &Link,
-    rho: f64,
-    velocity: &[f64; 3],
-) -> f64 {
-    let out = opposite(usize::from(link.direction));
-    let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
-    let correction = rim.get(usize::from(link.rim)).map_or(0.0, |kept| kept.correction[out]);
-    stored::<E>(task.physics.wall(leaving - correction, out, rho, velocity))
-}
-
-/// What is left of a number when it is stored: the ledger books what the cell gets.
-#[inline(always)]
-fn stored<E: Element>(x: f64) -> f64 {
-    E::from_f64(x).to_f64()
-}
-
-/// What an open face sends back, as it is stored: as gas where fluid leaves, as a wall at rest where it would
-/// come in.
-#[inline]
-pub fn open_link<P: Physics, E: Element>(
-    task: &Task<P, E>,
-    number: usize,
-    rim: &[super::rim::Rim],
-    link: &Link,
-) -> f64 {
-    let out = opposite(usize::from(link.direction));
-    let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
-    let u = rim.get(usize::from(link.rim)).map_or([0.0; 3], |kept| kept.velocity);
-    if crate::lattice::equilibrium::dot(out, &u) > 0.0 {
-        stored::<E>(gas_link(leaving, out, &u))
-    } else {
-        leaving
     }
 }

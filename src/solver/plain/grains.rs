@@ -1,11 +1,12 @@
 //! Grains in the fluid: the arrays of this backend for [`crate::coupling`].
 
-use super::cell::Cell;
 use super::run::PlainRun;
-use super::surface::{SurfacePhysics, Wet};
+use super::surface::SurfacePhysics;
+use super::surface::cells::Wet;
 use crate::coupling::{Host, Place, Uncovered, body_force};
 use crate::free_surface::Kind;
 use crate::setup::Setup;
+use crate::solver::cell::Cell;
 use crate::solver::physics::Physics;
 use crate::solver::run::Stopped;
 

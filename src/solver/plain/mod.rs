@@ -5,7 +5,6 @@
 //! does not depend on the number of threads. `run.rs` has the arrays and the order of the passes, `passes.rs` what
 //! every flow needs, `surface` what cells with a kind need besides.
 
-pub mod cell;
 mod grains;
 mod passes;
 mod report;

@@ -1,6 +1,5 @@
 //! Wall slip, collision and streaming. Each pass reads one array and writes another.
 
-use super::cell::{self, Cell};
 use super::run::{CHUNK, PlainRun};
 use super::surface::SurfacePhysics;
 use crate::boundary::links::{CellKind, Source};
@@ -8,6 +7,7 @@ use crate::free_surface::Kind;
 use crate::free_surface::ledger::VectorSum;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, opposite};
+use crate::solver::cell::{self, Cell};
 use crate::solver::physics::Physics;
 use crate::solver::pool::each;
 use crate::solver::run::Stopped;

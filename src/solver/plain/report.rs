@@ -1,6 +1,5 @@
 //! What a run tells about itself.
 
-use super::cell::{Cell, State};
 use super::run::PlainRun;
 use super::surface::SurfacePhysics;
 use crate::coupling::Immersed;
@@ -8,6 +7,7 @@ use crate::fingerprint::{Fingerprint, Hasher};
 use crate::lattice::Q;
 use crate::lattice::moments::Moments;
 use crate::setup::Setup;
+use crate::solver::cell::{Cell, State};
 use crate::solver::observe::{self, Observed};
 use crate::solver::physics::Physics;
 use crate::solver::run::{Fields, Ledger, Load, Run, Stopped, Totals};

@@ -1,11 +1,12 @@
 //! A flow and its time step.
 
-use super::cell::{self, Cell};
+use super::surface::cells::Wet;
 use super::surface::{Design, Surface, SurfacePhysics};
 use crate::boundary::links::{CellKind, Links};
 use crate::coupling::Immersed;
 use crate::lattice::Q;
 use crate::setup::{FlowPoint, Setup, WallRule, YieldTreatment};
+use crate::solver::cell::{self, Cell};
 use crate::solver::initial::{self, REST, starting_omega};
 use crate::solver::physics::Physics;
 use crate::solver::pool;
@@ -161,5 +162,21 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
     pub(super) fn state(&self, cell: usize, force: &[f64; 3]) -> cell::State {
         let previous = self.previous_omega.get(cell).copied().unwrap_or(0.0);
         cell::state(&self.physics, &self.f[cell], force, self.fluid(cell), previous)
+    }
+
+    /// The cells and the grains in them; `None` where cells have no kinds.
+    pub(super) fn wet(&mut self) -> Option<(Wet<'_, P, S>, Option<&mut Immersed>)> {
+        let wet = Wet {
+            setup: &self.setup,
+            physics: &self.physics,
+            links: &self.links,
+            f: &mut self.f,
+            post: &mut self.post,
+            previous_omega: &mut self.previous_omega,
+            surface: self.surface.as_mut()?,
+            step: self.step,
+            pool: self.pool.as_ref(),
+        };
+        Some((wet, self.grains.as_deref_mut()))
     }
 }

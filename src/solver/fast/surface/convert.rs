@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::InterfaceCell;
+use super::record::InterfaceCell;
 use crate::boundary::links::{Source, resolve};
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::{Cells, convert, fill_of, touch, verdict};
@@ -174,7 +174,7 @@ impl<P: Physics, E: Element> Cells for FastRun<P, E> {
     }
     fn wet(&mut self, cell: usize, populations: &[f64; Q]) {
         let (place, local) = self.layout.find(self.setup.coordinates(cell));
-        if self.layout.block_at(place) == super::super::layout::NONE {
+        if self.layout.block_at(place) == NONE {
             self.add_surface_block(place);
         }
         let f = *populations;

@@ -1,8 +1,8 @@
 //! Streaming and mass exchange of interface cells side by side \[F1\] \[F2\]: the same as
 //! `Streaming::stream` for cells whose links are all the grid's.
 
-use super::InterfaceCell;
-use super::exchange::Streaming;
+use super::record::InterfaceCell;
+use super::streaming::Streaming;
 use crate::free_surface::conversion::touch;
 use crate::free_surface::exchange::{gas_link, link_mass, share_with};
 use crate::lane::Lane;
@@ -10,11 +10,10 @@ use crate::lattice::moments::density_excess;
 use crate::lattice::unroll::{directions, three};
 use crate::lattice::{C, Q, opposite};
 use crate::solver::books::Entries;
-use crate::solver::fast::element::Element;
-use crate::solver::fast::kernel::index;
+use crate::solver::fast::around::Around;
+use crate::solver::fast::element::{Element, MOST, index};
 use crate::solver::fast::registers::Registers;
 use crate::solver::fast::sources::{Sources, gather, gather_cells};
-use crate::solver::fast::stage::{Around, MOST};
 use crate::solver::physics::Physics;
 
 /// What the exchange reads around a block.

@@ -1,6 +1,8 @@
 //! Sums and fields of a run with a free surface.
 
-use super::Surface;
+use super::inertia::Inertia;
+use super::record::InterfaceCell;
+use super::state::Surface;
 use crate::fingerprint::Hasher;
 use crate::free_surface::Kind;
 use crate::free_surface::ledger::{Sum, VectorSum};
@@ -72,9 +74,9 @@ impl Surface {
         let fill: usize = self.fill.iter().map(|fill| size_of_val(fill.as_slice())).sum();
         let lanes: usize = self.lanes.iter().map(|lanes| size_of_val(lanes.as_slice())).sum();
         let records: usize =
-            self.interface.iter().map(|list| list.capacity() * size_of::<super::InterfaceCell>()).sum();
+            self.interface.iter().map(|list| list.capacity() * size_of::<InterfaceCell>()).sum();
         let returned: usize = self.returned.iter().map(|links| size_of_val(links.as_slice())).sum();
-        let inertia = self.inertia.as_ref().map_or(0, super::inertia::Inertia::bytes);
+        let inertia = self.inertia.as_ref().map_or(0, Inertia::bytes);
         (kinds + fill + lanes + records + returned) as u64 + inertia
     }
 }

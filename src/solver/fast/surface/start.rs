@@ -1,7 +1,8 @@
 //! How a run with a free surface begins.
 
 use super::inertia::Inertia;
-use super::{Lanes, Surface};
+use super::record::{InterfaceCell, Lanes};
+use super::state::Surface;
 use crate::boundary::links::{Source, resolve};
 use crate::coupling::Immersed;
 use crate::free_surface::exchange::{GAS, LIQUID};
@@ -10,10 +11,9 @@ use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
 use crate::setup::{FlowPoint, FreeSurface, SurfaceForce};
 use crate::solver::books::Books;
-use crate::solver::fast::element::Element;
-use crate::solver::fast::kernel::index;
+use crate::solver::fast::block::put;
+use crate::solver::fast::element::{Element, index};
 use crate::solver::fast::run::FastRun;
-use crate::solver::fast::surface::InterfaceCell;
 use crate::solver::initial::{self, REST};
 use crate::solver::physics::Physics;
 use crate::solver::run::{Load, StartError};
@@ -167,14 +167,6 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             }
         }
         surface.list_lanes(number, E::PER_LINE);
-    }
-}
-
-/// Puts a value at a number, which is at most one beyond the end.
-pub(in crate::solver::fast) fn put<T>(list: &mut Vec<T>, number: usize, value: T) {
-    match list.get_mut(number) {
-        Some(place) => *place = value,
-        None => list.push(value),
     }
 }
 

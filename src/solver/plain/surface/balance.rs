@@ -1,14 +1,15 @@
 //! The ledger of mass and momentum \[F5\] and the loads on solids \[C7\].
 
-use super::{Surface, SurfacePhysics, Wet};
+use super::cells::Wet;
+use super::{Surface, SurfacePhysics};
 use crate::boundary::links::Source;
 use crate::free_surface::Kind;
 use crate::free_surface::ledger::{Sum, VectorSum};
 use crate::lattice::moments::{density_excess, momentum};
 use crate::lattice::{Q, opposite};
 use crate::solver::books::{CellEntries, Crossing, Entries};
+use crate::solver::cell::Cell;
 use crate::solver::physics::Physics;
-use crate::solver::plain::cell::Cell;
 use crate::solver::plain::run::PlainRun;
 use crate::solver::run::{Ledger, Runaway, Stopped};
 

@@ -3,15 +3,13 @@
 
 use super::{Surface, SurfacePhysics};
 use crate::boundary::links::{Links, Source};
-use crate::coupling::Immersed;
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::Cells;
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
 use crate::setup::{Setup, SurfaceForce, YieldTreatment};
+use crate::solver::cell::Cell;
 use crate::solver::physics::Physics;
-use crate::solver::plain::cell::Cell;
-use crate::solver::plain::run::PlainRun;
 
 /// A run without its grains, so that these can look at the cells and change them.
 pub(in crate::solver::plain) struct Wet<'a, P, S> {
@@ -24,24 +22,6 @@ pub(in crate::solver::plain) struct Wet<'a, P, S> {
     pub(in crate::solver::plain) surface: &'a mut Surface<S>,
     pub(in crate::solver::plain) step: u64,
     pub(in crate::solver::plain) pool: Option<&'a rayon::ThreadPool>,
-}
-
-impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
-    /// The cells and the grains in them; `None` where cells have no kinds.
-    pub(in crate::solver::plain) fn wet(&mut self) -> Option<(Wet<'_, P, S>, Option<&mut Immersed>)> {
-        let wet = Wet {
-            setup: &self.setup,
-            physics: &self.physics,
-            links: &self.links,
-            f: &mut self.f,
-            post: &mut self.post,
-            previous_omega: &mut self.previous_omega,
-            surface: self.surface.as_mut()?,
-            step: self.step,
-            pool: self.pool.as_ref(),
-        };
-        Some((wet, self.grains.as_deref_mut()))
-    }
 }
 
 impl<P: Physics, S: SurfacePhysics> Wet<'_, P, S> {

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::{SurfacePhysics, Wet};
+use super::SurfacePhysics;
+use super::cells::Wet;
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::{convert, fill_of, verdict};
 use crate::free_surface::marks::Mark;

@@ -2,7 +2,7 @@
 
 use crate::free_surface::{Kind, conversion::excess, exchange};
 use crate::lattice::opposite;
-use crate::solver::plain::cell::Cell;
+use crate::solver::cell::Cell;
 
 /// The cells of a run between collision and streaming.
 #[derive(Clone, Copy)]

@@ -4,7 +4,7 @@
 //! \[F5\]. Every pass writes only its own cell and reads arrays that no other cell of the pass writes.
 
 mod balance;
-mod cells;
+pub(super) mod cells;
 mod convert;
 mod equations;
 mod exchange;
@@ -12,15 +12,14 @@ mod force;
 
 use std::collections::BTreeMap;
 
-use super::cell::Cell;
 use crate::boundary::links::{CellKind, Links};
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
 use crate::setup::{FreeSurface, Setup, SurfaceForce};
 use crate::solver::books::Books;
+use crate::solver::cell::Cell;
 use crate::solver::run::{Load, StartError};
-pub(super) use cells::Wet;
 pub use equations::{Collided, Design, SurfaceLink, SurfacePhysics};
 
 /// Kinds of cells, their masses and books.
