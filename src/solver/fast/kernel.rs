@@ -54,11 +54,8 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
         }
         let ordinary = straight && class.ordinary;
         if !ordinary {
-            if straight {
-                stage.gather_straight::<R>(&around, &task.sources[pack]);
-            } else {
-                stage.gather(task, own, &around, local);
-            }
+            let sources = task.sources.get(pack).filter(|_| straight);
+            stage.fill::<R, P>(task, own, &around, sources, local);
             stage.mend(task, block, own, &class, local);
         }
         for part in (0..line).step_by(R::WIDTH) {
@@ -67,25 +64,18 @@ pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<
             } else {
                 stage.load::<R>(part)
             };
-            let force =
-                if class.interface == 0 { splat::<R>(&task.force) } else { stage.load_force::<R>(part) };
+            let force = force_of::<R, P>(task, &stage, &class, part);
             let m = task.physics.moments(&h, &force);
             let omega = if solved { omega::<R, P>(task, block, own, local + part, &m) } else { rate };
             guard::<R, P>(task, block, (local + part, class.fluid >> part), &m, omega, &mut outcome);
             keep::<R>(own, local + part, &m, omega);
-            if ordinary {
-                if task.surface.is_some() {
-                    R::add_wide(m.d_rho, &mut liquid[part..]);
-                }
-            } else {
+            if !ordinary {
                 stage.keep::<R>(&m, omega, part);
+            } else if task.surface.is_some() {
+                R::add_wide(m.d_rho, &mut liquid[part..]);
             }
             let post = task.physics.collide(&h, &m, omega);
-            if R::WIDTH == line {
-                store::<R>(task.past_cache, &post, &mut own.new.get_mut()[pack * Q * line..][..Q * line]);
-            } else {
-                stage.store::<R>(&post, part);
-            }
+            store::<R>(task.past_cache, own, &mut stage, &post, (pack, part));
         }
         if !ordinary {
             outcome.liquid_excess += stage.finish(block, own, &class, local);
@@ -142,12 +132,20 @@ impl<'a, E: Element> Ahead<'a, E> {
     }
 }
 
-/// The same vector in every lane.
+/// Body force of one part of a pack.
 #[inline(always)]
-fn splat<R: Registers>(vector: &[f64; 3]) -> [R::Pack; 3] {
+fn force_of<R: Registers, P: Physics>(
+    task: &Task<P, R::Element>,
+    stage: &Stage<R::Element>,
+    class: &Class,
+    part: usize,
+) -> [R::Pack; 3] {
+    if class.interface != 0 {
+        return stage.load_force::<R>(part);
+    }
     three(
         #[inline(always)]
-        |a| R::Pack::splat(vector[a]),
+        |a| R::Pack::splat(task.force[a]),
     )
 }
 
@@ -168,10 +166,20 @@ fn keep<R: Registers>(own: &mut Own<R::Element>, local: usize, m: &Moments<R::Pa
     }
 }
 
-/// Stores a pack that fills whole lines; `to`: the numbers of the pack.
+/// Stores one part of a pack where it fills whole lines, else puts it on the stage.
 #[inline(always)]
-fn store<R: Registers>(past_cache: bool, post: &[R::Pack; Q], to: &mut [R::Element]) {
+fn store<R: Registers>(
+    past_cache: bool,
+    own: &mut Own<R::Element>,
+    stage: &mut Stage<R::Element>,
+    post: &[R::Pack; Q],
+    (pack, part): (usize, usize),
+) {
     let line = R::Element::PER_LINE;
+    if R::WIDTH != line {
+        return stage.store::<R>(post, part);
+    }
+    let to = &mut own.new.get_mut()[pack * Q * line..][..Q * line];
     if past_cache {
         for i in 0..Q {
             R::store_past_cache(post[i], &mut to[i * line..]);

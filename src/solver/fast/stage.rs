@@ -71,9 +71,17 @@ impl<E: Element> Stage<E> {
         }
     }
 
-    /// Gathers a pack where rows run along x.
+    /// Gathers a pack that starts at `local`; `sources`: those of the pack, where they are tabulated.
     #[inline(always)]
-    pub fn gather_straight<R: Registers<Element = E>>(&mut self, around: &Around<E>, sources: &Sources) {
+    pub fn fill<R: Registers<Element = E>, P: Physics>(
+        &mut self,
+        task: &Task<P, E>,
+        own: &Own<E>,
+        around: &Around<E>,
+        sources: Option<&Sources>,
+        local: usize,
+    ) {
+        let Some(sources) = sources else { return self.gather(task, own, around, local) };
         for part in (0..E::PER_LINE).step_by(R::WIDTH) {
             let h = sources::gather::<R>(around, sources, part);
             self.store::<R>(&h, part);
@@ -82,7 +90,7 @@ impl<E: Element> Stage<E> {
 
     /// Gathers a pack that starts at `local` where rows do not run along x, or before the first collision.
     #[inline(never)]
-    pub fn gather<P: Physics>(&mut self, task: &Task<P, E>, own: &Own<E>, around: &Around<E>, local: usize) {
+    fn gather<P: Physics>(&mut self, task: &Task<P, E>, own: &Own<E>, around: &Around<E>, local: usize) {
         let line = E::PER_LINE;
         let own_old = task.old[own.number].get();
         for (i, column) in self.populations.iter_mut().enumerate() {

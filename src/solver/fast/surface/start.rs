@@ -1,6 +1,5 @@
 //! How a run with a free surface begins.
 
-use super::inertia::Inertia;
 use super::record::{InterfaceCell, Lanes};
 use super::state::Surface;
 use crate::boundary::links::{Source, resolve};
@@ -9,14 +8,13 @@ use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
-use crate::setup::{FlowPoint, FreeSurface, SurfaceForce};
-use crate::solver::books::Books;
+use crate::setup::{FlowPoint, FreeSurface};
 use crate::solver::fast::block::put;
 use crate::solver::fast::element::{Element, index};
 use crate::solver::fast::run::FastRun;
 use crate::solver::initial::{self, REST};
 use crate::solver::physics::Physics;
-use crate::solver::run::{Load, StartError};
+use crate::solver::run::StartError;
 
 impl<P: Physics, E: Element> FastRun<P, E> {
     /// Blocks, populations, masses and the ledger.
@@ -25,11 +23,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     /// The setup asks for what this backend does not have.
     pub(in crate::solver::fast) fn start_surface(&mut self) -> Result<(), StartError> {
         let unsupported = |feature| StartError::Unsupported { backend: "fast", feature };
-        if let Some(grains) = &self.setup.grains {
-            let immersed =
-                Immersed::new(&self.setup, grains).map_err(|error| StartError::Grains(Box::new(error)))?;
-            self.grains = Some(Box::new(immersed));
-        }
+        self.immerse_grains()?;
         let drawn = self.setup.free_surface.take();
         let with_gas = drawn.is_some();
         // Grains need the kinds of cells with or without gas.
@@ -63,23 +57,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             }
         }
         let loads = if setup.loads { setup.solid_motion.len() } else { 0 };
-        self.surface = Some(Surface {
-            kinds: Vec::new(),
-            fill: Vec::new(),
-            lanes: Vec::new(),
-            interface: Vec::new(),
-            parked: Default::default(),
-            books: Books::default(),
-            loads: vec![Load::default(); loads],
-            counts: [0; 2],
-            inertia: (rules.force == SurfaceForce::ByFillAndInertia).then(Inertia::default),
-            free: Vec::new(),
-            returned: Vec::new(),
-            nothing: vec![GAS; self.layout.block_cells()],
-            open: false,
-            covered: Vec::new(),
-            rules: rules.clone(),
-        });
+        self.surface = Some(Surface::new(rules.clone(), loads, self.layout.block_cells()));
         if with_gas {
             self.setup.free_surface = Some(rules);
         }
@@ -91,6 +69,15 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         }
         self.start_grains();
         self.open_books();
+        Ok(())
+    }
+
+    /// Puts the grains in, if there are any.
+    fn immerse_grains(&mut self) -> Result<(), StartError> {
+        let Some(grains) = &self.setup.grains else { return Ok(()) };
+        let immersed =
+            Immersed::new(&self.setup, grains).map_err(|error| StartError::Grains(Box::new(error)))?;
+        self.grains = Some(Box::new(immersed));
         Ok(())
     }
 

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use super::inertia::Inertia;
 use super::record::{InterfaceCell, Lanes, SurfaceView};
 use crate::free_surface::Kind;
+use crate::free_surface::exchange::GAS;
 use crate::free_surface::force::interface_force;
-use crate::setup::FreeSurface;
+use crate::setup::{FreeSurface, SurfaceForce};
 use crate::solver::books::Books;
 use crate::solver::run::Load;
 
@@ -44,6 +45,28 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// Of a run without blocks yet; `loads`: solids whose loads are recorded, `block_cells`: cells per block.
+    #[must_use]
+    pub fn new(rules: FreeSurface, loads: usize, block_cells: usize) -> Self {
+        Self {
+            kinds: Vec::new(),
+            fill: Vec::new(),
+            lanes: Vec::new(),
+            interface: Vec::new(),
+            parked: BTreeMap::new(),
+            books: Books::default(),
+            loads: vec![Load::default(); loads],
+            counts: [0; 2],
+            inertia: (rules.force == SurfaceForce::ByFillAndInertia).then(Inertia::default),
+            free: Vec::new(),
+            returned: Vec::new(),
+            nothing: vec![GAS; block_cells],
+            covered: Vec::new(),
+            open: false,
+            rules,
+        }
+    }
+
     /// What the passes read.
     #[must_use]
     pub fn view(&self) -> SurfaceView<'_> {

@@ -59,16 +59,12 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                     Source::Open
                 }
                 End::Cell { number, local, direction } => {
-                    let kind = match number {
-                        NONE => Kind::Gas,
-                        number => self.surface.kinds[number as usize][local],
-                    };
+                    let kind = self.kind(number, local);
                     gas = !kind.is_fluid();
                     if kind == Kind::Solid {
                         // Covered by a grain: what its surface returns has been put there, and booked.
                         touches |= touch::WALL;
-                        let number = number as usize;
-                        arrived[i] = self.task.old[number].get()[index::<E>(local, direction)].to_f64();
+                        arrived[i] = self.sent(number, local, direction);
                         continue;
                     }
                     if gas {
@@ -78,10 +74,8 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                         if kind == Kind::Liquid {
                             touches |= touch::LIQUID;
                         }
-                        let number = number as usize;
-                        arrived[i] = self.task.old[number].get()[index::<E>(local, direction)].to_f64();
-                        let other = self.surface.fill[number][local];
-                        let share = wetted_share(kind, fill, other);
+                        arrived[i] = self.sent(number, local, direction);
+                        let share = wetted_share(kind, fill, self.surface.fill[number as usize][local]);
                         gained[i] = link_mass(share, arrived[i], own[out]);
                     }
                     Source::Cell { cell: 0, direction: direction as u8 }
@@ -95,6 +89,21 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         cell.rho = 1.0 + density_excess(&arrived);
         cell.mass += density_excess(&gained);
         cell.touches = touches;
+    }
+
+    /// Kind of a cell; gas where there is no block.
+    #[inline]
+    fn kind(&self, number: u32, local: usize) -> Kind {
+        match number {
+            NONE => Kind::Gas,
+            number => self.surface.kinds[number as usize][local],
+        }
+    }
+
+    /// What a cell sends in a direction.
+    #[inline]
+    fn sent(&self, number: u32, local: usize, direction: usize) -> f64 {
+        self.task.old[number as usize].get()[index::<E>(local, direction)].to_f64()
     }
 
     /// Whether grains cover cells in the block or beside it.
@@ -155,7 +164,7 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                 // A liquid cell touches no gas.
                 End::Cell { direction, .. } if direction == i => continue,
                 End::Cell { number, local, direction } => {
-                    let arrived = self.task.old[number as usize].get()[index::<E>(local, direction)].to_f64();
+                    let arrived = self.sent(number, local, direction);
                     if self.surface.kinds[number as usize][local] == Kind::Solid {
                         // Behind a mirror plane and covered by a grain: booked where its surface returned it.
                         *back = arrived;
