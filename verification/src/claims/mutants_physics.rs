@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use lahar::boundary::bounce_back::bounce_back;
 use lahar::boundary::links::Links;
-use lahar::collision::CollisionChoice;
+use lahar::collision::forcing_guo::{even_source, odd_source};
+use lahar::collision::{Bgk, Collision, CollisionChoice};
 use lahar::free_surface::Kind;
 use lahar::free_surface::conversion::excess::excess;
 use lahar::free_surface::exchange::{self, link_mass};
@@ -49,6 +50,16 @@ pub enum Mistake {
     ExchangeBeforeCollision,
     /// 000: excess without a rule.
     ExcessDropped,
+    /// The force source without 1 − ω/2.
+    FullSource,
+    /// τ = ½ + 3μ: the dynamic viscosity taken for the kinematic one.
+    NoDensityInTau,
+    /// τ = 3ν, without the ½ of the discrete step.
+    NoHalfInTau,
+    /// BGK whatever operator is asked for.
+    AlwaysBgk,
+    /// ω⁺ used for the odd populations and ω⁻ for the even ones.
+    SwappedRates,
 }
 
 /// The plain solver with one mistake.
@@ -122,10 +133,12 @@ impl Physics for Wrong {
     }
 
     fn constant_omega(&self) -> Option<f64> {
-        self.right.constant_omega()
+        let omega = self.right.constant_omega()?;
+        Some(if self.mistake == Mistake::NoHalfInTau { 1.0 / (1.0 / omega - 0.5) } else { omega })
     }
 
     fn omega<L: Lane>(&self, fluid: u8, rho: L, q: L, previous: L) -> L {
+        let rho = if self.mistake == Mistake::NoDensityInTau { L::one() } else { rho };
         self.right.omega(fluid, rho, q, previous)
     }
 
@@ -142,7 +155,17 @@ impl Physics for Wrong {
     }
 
     fn collide<L: Lane>(&self, h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q] {
-        self.right.collide(h, m, omega)
+        match self.mistake {
+            Mistake::AlwaysBgk => Bgk.collide(h, m, omega),
+            Mistake::FullSource => {
+                let post = self.right.collide(h, m, omega);
+                let (even, odd) = (even_source(&m.u, &m.force), odd_source(&m.force));
+                let half = L::splat(0.5) * omega;
+                std::array::from_fn(|i| post[i] + half * (even[i] + odd[i]))
+            }
+            Mistake::SwappedRates => self.right.collide(h, m, self.odd_omega(omega)),
+            _ => self.right.collide(h, m, omega),
+        }
     }
 
     fn wall<L: Lane>(&self, out: L, i: usize, rho: L, u_wall: &[L; 3]) -> L {

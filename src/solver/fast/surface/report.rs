@@ -34,14 +34,14 @@ impl Surface {
     pub fn fill_of(&self, number: usize, local: usize, rho: f64) -> f64 {
         match self.kinds[number][local] {
             Kind::Liquid => 1.0,
-            _ => self.mass(number, local) / rho,
+            Kind::Interface | Kind::Gas | Kind::Solid => self.mass(number, local) / rho,
         }
     }
 
     fn mass(&self, number: usize, local: usize) -> f64 {
         match self.kinds[number][local] {
             Kind::Interface => self.record(number, local).map_or(0.0, |record| record.mass),
-            _ => 0.0,
+            Kind::Liquid | Kind::Gas | Kind::Solid => 0.0,
         }
     }
 
@@ -50,7 +50,7 @@ impl Surface {
     pub fn mass_of(&self, number: usize, local: usize, m: &Moments<f64>) -> (f64, f64) {
         match self.kinds[number][local] {
             Kind::Liquid => (m.d_rho, m.rho),
-            _ => (self.mass(number, local), self.mass(number, local)),
+            Kind::Interface | Kind::Gas | Kind::Solid => (self.mass(number, local), self.mass(number, local)),
         }
     }
 
