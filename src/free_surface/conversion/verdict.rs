@@ -21,9 +21,9 @@ pub fn verdict(cells: &impl Cells, rules: &FreeSurface, cell: usize, rho: f64) -
     mark(cells.mass(cell), rho, touches, rules.margin, rules.lonely_margin)
 }
 
-/// Whether an interface cell touches a wall, or an interface cell other than itself that touches liquid or a wall; and
-/// its links hold it: beside them it is no faster than parked mass falls. Where it touches liquid the answer is not
-/// needed and `true`.
+/// Whether an interface cell touches a wall, or an interface cell other than itself that touches liquid or a wall;
+/// and its links hold it: beside them it is no faster than parked mass falls. Where it touches liquid the answer is
+/// not needed and `true`.
 fn is_held(cells: &impl Cells, cell: usize, bits: u8, rho: f64) -> bool {
     if bits & touch::LIQUID != 0 {
         return true;

@@ -136,7 +136,8 @@ impl Columns {
     }
 }
 
-/// Streams all interface cells of a block, with registers that compute in f64: those with irregular links one by one, the others side by side.
+/// Streams all interface cells of a block, with registers that compute in f64: those with irregular links one by
+/// one, the others side by side.
 #[inline(always)]
 pub fn stream_block<R: Registers, P: Physics>(
     streaming: &Streaming<P, R::Element>,
