@@ -140,12 +140,16 @@ impl Links {
     #[inline]
     #[must_use]
     pub fn source(&self, cell: usize, i: usize) -> Source {
+        let [nx, ny, _] = self.extents;
+        self.source_at(cell, [cell % nx, (cell / nx) % ny, cell / (nx * ny)], i)
+    }
+
+    /// As [`Self::source`], for who knows the coordinates `at` of the cell.
+    #[inline]
+    #[must_use]
+    pub fn source_at(&self, cell: usize, at: [usize; 3], i: usize) -> Source {
         match self.kinds[cell] {
-            SOLID | BULK => {
-                let [nx, ny, _] = self.extents;
-                let upstream = self.upstream([cell % nx, (cell / nx) % ny, cell / (nx * ny)], i);
-                Source::Cell { cell: upstream as u32, direction: i as u8 }
-            }
+            SOLID | BULK => Source::Cell { cell: self.upstream(at, i) as u32, direction: i as u8 },
             slot => self.boundary[slot as usize].sources[i],
         }
     }

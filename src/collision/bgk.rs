@@ -32,6 +32,10 @@ impl Collision for Bgk {
         )
     }
 
+    fn has_cubic_equilibrium(&self) -> bool {
+        false
+    }
+
     #[inline(always)]
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
         raw_odd_departure(h, m)

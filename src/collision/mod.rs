@@ -36,9 +36,7 @@ pub trait Collision: Copy + Send + Sync + 'static {
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q];
 
     /// Whether the equilibrium has the third moments of \[K3\].
-    fn has_cubic_equilibrium(&self) -> bool {
-        false
-    }
+    fn has_cubic_equilibrium(&self) -> bool;
 
     /// τ⁻ − ½ before any floor: what Λ asks for \[K6\].
     #[inline(always)]
@@ -102,7 +100,7 @@ impl Collision for CollisionChoice {
         for_each_collision!(self, operator => operator.odd_omega(omega))
     }
     fn has_cubic_equilibrium(&self) -> bool {
-        matches!(self, Self::CentralMoment(_) | Self::Regularised)
+        for_each_collision!(self, operator => operator.has_cubic_equilibrium())
     }
     #[inline(always)]
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {

@@ -18,8 +18,7 @@ use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 pub use dual::Dual;
-pub use pack::Pack;
-pub use single::Singles;
+pub use pack::{Pack, Singles};
 
 /// A function of two numbers over any lane.
 pub trait OfTwo {

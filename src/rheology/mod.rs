@@ -120,7 +120,10 @@ impl Law {
     pub fn constant_tau(&self) -> Option<f64> {
         match *self {
             Self::Newtonian { mu } => Newtonian { mu }.constant_tau(),
-            _ => None,
+            Self::Bingham { .. }
+            | Self::HerschelBulkley { .. }
+            | Self::PowerLaw { .. }
+            | Self::Papanastasiou { .. } => None,
         }
     }
 

@@ -331,12 +331,6 @@ impl BodyForce {
         }
     }
 
-    /// Whether the force never changes.
-    #[must_use]
-    pub const fn is_constant(&self) -> bool {
-        matches!(self, Self::Constant(_))
-    }
-
     /// Largest magnitude the force reaches, lattice units.
     #[must_use]
     pub fn largest(&self) -> f64 {

@@ -3,7 +3,7 @@
 use crate::lattice::moments::{THIRD, populations};
 use crate::lattice::{Q, SYMMETRIC, pair};
 use crate::rheology::Law;
-use crate::setup::FlowPoint;
+use crate::setup::{FlowPoint, Setup, YieldTreatment};
 
 /// Rest at the reference density: where nothing else is asked for.
 pub const REST: FlowPoint = FlowPoint { density: 1.0, velocity: [0.0; 3], gradient: [[0.0; 3]; 3] };
@@ -70,6 +70,16 @@ pub fn start(point: &FlowPoint, law: &Law, force: &[f64; 3]) -> [f64; Q] {
         rho * u[a] * u[a] * u[b] * u[b] + induced + isotropic
     });
     populations(d_rho, &m1, &m2, &m3, &m4)
+}
+
+/// ω⁺ of a cell that the lagged treatment starts from: the law at the initial shear rate, clamped; 0 for the others.
+#[must_use]
+pub fn starting_omega(setup: &Setup, cell: usize) -> f64 {
+    let YieldTreatment::LaggedClamped { tau_min, tau_max } = setup.yielding else { return 0.0 };
+    let point = setup.initial.as_ref().map_or(REST, |flow| flow(setup.coordinates(cell)));
+    let gamma_dot = shear_rate(&strain_rate(&point.gradient));
+    let tau = if gamma_dot > 0.0 { tau_at(&setup.law(cell), point.density, gamma_dot) } else { tau_max };
+    1.0 / tau.clamp(tau_min, tau_max)
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
-//! The equations of one cell as a set, so that a whole run can be started with one of them wrong.
+//! The equations of one cell as a set.
 //!
 //! [`Standard`] is the physics of the design: every method forwards to the function that holds the
-//! equation. A mutant (see `verify::mutant`) wraps it and overrides exactly one method; the hot loop
-//! is compiled for each, and the right one pays nothing for it.
+//! equation. Who wants to see a claim fail wraps it and overrides one method; the hot loop is compiled for
+//! each, and the right one pays nothing for it. The equations of the free surface are in
+//! [`crate::free_surface`].
 
 use crate::boundary::{bounce_back, wall_slip};
 use crate::collision::Collision;
-use crate::free_surface::{Kind, exchange};
 use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::moments::{self, Moments};
@@ -54,56 +54,7 @@ pub trait Physics: Clone + Send + Sync + 'static {
 
     /// What the third-order part of the equilibrium adds to a wall that moves with the fluid, so that uniform flow
     /// passes it unchanged: −(f_i^eq − f_ī^eq) beyond second order.
-    fn wall_cubic(&self, i: usize, rho: f64, u_wall: &[f64; 3]) -> f64 {
-        let _ = (i, rho, u_wall);
-        0.0
-    }
-
-    /// A: wetted share of a link \[F1\]. `masses()`: m of the two cells, for the wrong form that uses them.
-    #[inline(always)]
-    fn wetted_share(
-        &self,
-        neighbour: Kind,
-        fill: f64,
-        neighbour_fill: f64,
-        masses: impl Fn() -> [f64; 2],
-    ) -> f64 {
-        let _ = masses;
-        exchange::wetted_share(neighbour, fill, neighbour_fill)
-    }
-
-    /// Δm of one link \[F1\]. `before()`: the two populations before collision, for the wrong form
-    /// that uses them.
-    #[inline(always)]
-    fn link_mass<L: Lane>(&self, share: L, arriving: L, leaving: L, before: impl Fn() -> [L; 2]) -> L {
-        let _ = before;
-        exchange::link_mass(share, arriving, leaving)
-    }
-
-    /// Population that the gas sends back along −c_i \[F2\]. `behind()`: what the cell at x − c_i
-    /// sends along c_i, for the wrong form that reconstructs there.
-    #[inline(always)]
-    fn gas_link<L: Lane>(&self, leaving: L, i: usize, u: &[L; 3], behind: impl Fn() -> L) -> L {
-        let _ = behind;
-        exchange::gas_link(leaving, i, u)
-    }
-
-    /// Whether [`Physics::link_mass`] reads populations before collision; no right physics does.
-    fn wants_before(&self) -> bool {
-        false
-    }
-
-    /// Whether this is a wrong form on trial: its mass ledger may not close, and the claim that must
-    /// catch it measures by how much.
-    fn is_mutant(&self) -> bool {
-        false
-    }
-
-    /// What becomes of the mass e that a conversion leaves over \[F4\].
-    #[inline(always)]
-    fn excess(&self, e: f64) -> f64 {
-        e
-    }
+    fn wall_cubic(&self, i: usize, rho: f64, u_wall: &[f64; 3]) -> f64;
 
     /// 1/(dσ/dγ̇) of a cell, zero where rigid \[B3\].
     fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L;

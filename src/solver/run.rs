@@ -2,6 +2,7 @@
 
 use crate::coupling::Immersed;
 use crate::fingerprint::Fingerprint;
+use crate::lattice::Q;
 use crate::lattice::moments::{Moments, deviator, magnitude};
 use crate::rheology::relaxation::shear_rate_of_omega;
 use crate::setup::Setup;
@@ -37,7 +38,7 @@ pub trait Run {
     fn fields(&self) -> Fields;
 
     /// Populations of one cell, stored as f − w_i \[L7\].
-    fn populations(&self, cell: usize) -> [f64; 19];
+    fn populations(&self, cell: usize) -> [f64; Q];
 
     /// Total mass excess Σ(ρ − 1) and momentum Σρu over the fluid cells, summed in index order.
     fn totals(&self) -> Totals;
@@ -67,15 +68,14 @@ pub trait Run {
         None
     }
 
-    /// The same, to be told new motions.
+    /// The grains in the fluid, to be told new motions; `None` without any.
     fn grains_mut(&mut self) -> Option<&mut Immersed> {
         None
     }
 
-    /// Takes the grains that are not kept out of the run; `keep` has one entry per grain.
-    fn leave(&mut self, keep: &[bool]) {
-        let _ = keep;
-    }
+    /// Takes the grains that are not kept out of the run; `keep` has one entry per grain. Nothing happens in a run
+    /// without grains.
+    fn leave(&mut self, keep: &[bool]);
 
     /// Seconds spent in each pass since the start; empty where a backend does not keep them. For people:
     /// results never depend on them.

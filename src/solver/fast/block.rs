@@ -1,6 +1,6 @@
 //! One block: what surrounds it, which packs are ordinary, and the links that are not.
 
-use super::layout::{Layout, NONE};
+use super::layout::Layout;
 use crate::boundary::links::{BoundaryCell, Source, boundary_cell};
 use crate::lattice::{C, Q, direction, opposite};
 use crate::setup::Setup;
@@ -16,7 +16,7 @@ pub struct Place {
 
 /// Where an irregular population comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum From {
+pub enum Origin {
     /// Population `direction` of another cell.
     Cell { cell: Place, direction: u8 },
     /// Bounced back \[B1\] by a wall with this velocity (number in the run's list); `body` as in
@@ -34,7 +34,7 @@ pub struct Link {
     /// Arriving direction.
     pub direction: u8,
     /// Its source.
-    pub from: From,
+    pub from: Origin,
     /// Position of the cell in [`Block::rim`].
     pub rim: u16,
 }
@@ -179,15 +179,15 @@ impl Block {
                     {
                         continue;
                     }
-                    From::Cell { cell: place, direction }
+                    Origin::Cell { cell: place, direction }
                 }
                 Source::Wall { velocity, body } => {
                     rim.walls |= 1 << opposite(i);
-                    From::Wall { velocity: velocities.number(velocity), body }
+                    Origin::Wall { velocity: velocities.number(velocity), body }
                 }
                 Source::Open => {
                     rim.open = true;
-                    From::Open
+                    Origin::Open
                 }
             };
             self.links.push(Link { local: local as u16, direction: i as u8, from, rim: number });
@@ -237,24 +237,6 @@ impl Block {
     #[must_use]
     pub fn links_of(&self, pack: usize) -> &[Link] {
         &self.links[self.first_link[pack] as usize..self.first_link[pack + 1] as usize]
-    }
-
-    /// The irregular link of a cell in a direction, if it is one.
-    #[inline]
-    #[must_use]
-    pub fn link(&self, local: usize, i: usize, width: usize) -> Option<&Link> {
-        let links = self.links_of(local / width);
-        if links.is_empty() {
-            return None;
-        }
-        let key = |link: &Link| (usize::from(link.local), usize::from(link.direction));
-        links.binary_search_by_key(&(local, i), key).ok().map(|k| &links[k])
-    }
-
-    /// Position in the rim of a cell.
-    #[must_use]
-    pub fn rim_of(&self, local: usize) -> Option<usize> {
-        self.rim.binary_search_by_key(&local, |rim| usize::from(rim.local)).ok()
     }
 
     /// Bytes held.
@@ -348,9 +330,10 @@ pub fn numbers_around(layout: &Layout, place: usize) -> [u32; 27] {
     layout.around(place).map(|at| layout.block_at(at))
 }
 
-/// Whether a block number names a block.
-#[inline(always)]
-#[must_use]
-pub fn exists(number: u32) -> bool {
-    number != NONE
+/// Puts the value of a block at its number, which is at most one beyond the end.
+pub(in crate::solver::fast) fn put<T>(list: &mut Vec<T>, number: usize, value: T) {
+    match list.get_mut(number) {
+        Some(place) => *place = value,
+        None => list.push(value),
+    }
 }

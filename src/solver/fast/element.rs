@@ -1,6 +1,12 @@
 //! What populations are stored as, and lines of the cache.
 
-use super::stores;
+use crate::lattice::Q;
+
+/// Bytes of a cache line.
+pub const LINE_BYTES: usize = 64;
+
+/// Most cells side by side: a line of f32.
+pub const MOST: usize = 16;
 
 /// A stored population, f − w.
 pub trait Element: Copy + Default + Send + Sync + PartialEq + 'static {
@@ -56,7 +62,7 @@ impl<E: Element> Aligned<E> {
     pub fn zeros(len: usize) -> Self {
         let data = vec![E::default(); len + E::PER_LINE];
         // Falls back to the first number where the address cannot be known; only speed depends on it.
-        let start = match data.as_ptr().align_offset(stores::LINE_BYTES) {
+        let start = match data.as_ptr().align_offset(LINE_BYTES) {
             offset if offset < E::PER_LINE => offset,
             _ => 0,
         };
@@ -87,4 +93,14 @@ impl<E: Element> Aligned<E> {
     pub fn bytes(&self) -> u64 {
         (self.data.len() * size_of::<E>()) as u64
     }
+}
+
+/// Place of population `i` of a cell among the numbers of its block.
+///
+/// The 19 lines of a pack follow each other, then those of the next pack: a pass walks through memory from
+/// front to back, on one page after the other, instead of on 38 pages at once.
+#[inline(always)]
+#[must_use]
+pub const fn index<E: Element>(local: usize, i: usize) -> usize {
+    (local / E::PER_LINE * Q + i) * E::PER_LINE + local % E::PER_LINE
 }

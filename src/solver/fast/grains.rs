@@ -1,10 +1,9 @@
 //! Grains in the fluid: the blocks of this backend for [`crate::coupling`].
 
-use super::element::Element;
-use super::kernel::index;
+use super::element::{Element, index};
 use super::layout::NONE;
 use super::run::FastRun;
-use super::surface::InterfaceCell;
+use super::surface::record::InterfaceCell;
 use crate::coupling::{Host, Immersed, Place, Uncovered, body_force};
 use crate::free_surface::Kind;
 use crate::free_surface::exchange::{GAS, LIQUID};

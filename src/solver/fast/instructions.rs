@@ -1,14 +1,14 @@
 //! Instruction sets: the same pass compiled for each, chosen when a run starts.
 
-use super::kernel::{Outcome, Own, Task, pass};
+use super::kernel::pass;
 use super::rim::{Alike, Columns, WallTask, correct_group};
-use super::surface::InterfaceCell;
-use super::surface::exchange::Streaming;
 use super::surface::packed::{Near, stream_block};
+use super::surface::record::InterfaceCell;
+use super::surface::streaming::Streaming;
+use super::task::{Outcome, Own, Task};
 #[cfg(target_arch = "x86_64")]
-use super::{
-    x86::{Avx2, Avx512, Sse2},
-    x86_single::{Avx2Single, Avx2Stored, Avx512Single, Avx512Stored, Sse2Single, Sse2Stored},
+use super::x86::{
+    Avx2, Avx2Single, Avx2Stored, Avx512, Avx512Single, Avx512Stored, Sse2, Sse2Single, Sse2Stored,
 };
 use crate::solver::books::Entries;
 use crate::solver::physics::Physics;

@@ -7,227 +7,188 @@
 //! lines of the blocks before and behind it in x are read once for both. Hence 304 to 324 bytes: counted from
 //! the layout, not measured at the memory, and without the entries of page tables.
 
+use super::around::Around;
 use super::block::Block;
-use super::element::{Aligned, Element};
-use super::layout::Layout;
+use super::element::{Aligned, Element, MOST};
 use super::registers::Registers;
-use super::rim::Rim;
 use super::sources::{Sources, gather};
-use super::stage::{Around, Class, MOST, Stage};
+use super::stage::{Class, Stage};
 use super::stores;
-use super::surface::{InterfaceCell, SurfaceView};
+use super::task::{Outcome, Own, Task};
 use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::moments::Moments;
-use crate::lattice::unroll::{directions, three};
-use crate::setup::Setup;
+use crate::lattice::unroll::three;
+use crate::solver::cell::runaway;
 use crate::solver::physics::Physics;
-use crate::solver::plain::cell::runaway;
 use crate::solver::run::Stopped;
 
 /// Packs between asking for a line of another block and using it: two microseconds, several times what memory
 /// takes. Lines of the block itself are asked for a whole block earlier.
 const FAR: usize = 16;
 
-/// What all blocks of a pass share; everything here is only read.
-pub struct Task<'a, P, E> {
-    pub setup: &'a Setup,
-    pub physics: &'a P,
-    pub layout: &'a Layout,
-    /// Where packs are gathered from.
-    pub sources: &'a [Sources],
-    pub blocks: &'a [Block],
-    /// Populations after the last collision, or before the first one.
-    pub old: &'a [Aligned<E>],
-    /// Whether `old` holds populations before the first collision.
-    pub fresh: bool,
-    /// Body force of this step.
-    pub force: [f64; 3],
-    pub step: u64,
-    /// Wall velocities by number.
-    pub velocities: &'a [[f64; 3]],
-    /// Whether stores go past the cache.
-    pub past_cache: bool,
-    /// Free surface, if any.
-    pub surface: Option<SurfaceView<'a>>,
-}
-
-/// What a block owns in a pass.
-pub struct Own<'a, E> {
-    pub number: usize,
-    /// Populations after this collision.
-    pub new: &'a mut Aligned<E>,
-    /// Cells at walls and open faces; empty if nothing is kept of them.
-    pub rim: &'a mut [Rim],
-    /// ρ − 1 by cell; empty unless somebody asks for it.
-    pub density: &'a mut [f64],
-    /// ω⁺ of the previous step; empty unless lagged.
-    pub lag: &'a mut [f64],
-    /// u by cell, x then y then z; empty unless the surface force has inertia.
-    pub velocity: &'a mut [f64],
-    /// Interface cells of the block.
-    pub interface: &'a mut [InterfaceCell],
-}
-
-/// What a pass over a block found.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Outcome {
-    /// First cell, by number in the box, that fails the guard.
-    pub failed: Option<(usize, Stopped)>,
-    /// Σ(ρ − 1) over liquid cells; only with a free surface.
-    pub liquid_excess: f64,
-}
-
-/// Place of population `i` of a cell among the numbers of its block.
-///
-/// The 19 lines of a pack follow each other, then those of the next pack: a pass walks through memory from
-/// front to back, on one page after the other, instead of on 38 pages at once.
-#[inline(always)]
-#[must_use]
-pub const fn index<E: Element>(local: usize, i: usize) -> usize {
-    (local / E::PER_LINE * Q + i) * E::PER_LINE + local % E::PER_LINE
-}
-
-/// Numbers per block.
-#[must_use]
-pub fn block_len(layout: &Layout) -> usize {
-    Q * layout.block_cells()
-}
-
 /// Collides every fluid cell of a block.
 #[inline(always)]
 pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<R::Element>) -> Outcome {
     let mut outcome = Outcome::default();
-    let block = &task.blocks[own.number];
     // Blocks that ran dry hold nothing.
     if task.old[own.number].is_empty() {
         return outcome;
     }
+    let block = &task.blocks[own.number];
     let line = R::Element::PER_LINE;
-    let around = Around::new(task, own.number);
-    let sources = task.sources;
-    let straight = !sources.is_empty() && !task.fresh;
+    let around = task.around(own.number);
+    let ahead = Ahead::new(task, own.number, &around);
+    let straight = !task.sources.is_empty() && !task.fresh;
     let mut stage = Stage::new();
     let mut liquid = [0.0; MOST];
-    let packs = block.usable.len();
-    let coming = [1, 2].map(|k| task.old.get(own.number + k).map_or(&[][..], Aligned::get));
-    let around_next = Around::next(task, own.number);
-    // A pack of this block, or beyond its end one of the next.
-    let later = |pack: usize| match sources.get(pack) {
-        Some(later) => Some((&around, later)),
-        None => around_next.as_ref().zip(sources.get(pack.wrapping_sub(packs))),
-    };
-    let constant = task.physics.constant_omega().map(R::Pack::splat).filter(|_| P::VARIES);
+    // Where it is known when compiling that nothing is solved, what follows from ω⁺ is computed once per block.
+    let solved = P::VARIES && task.physics.constant_omega().is_none();
     let rate = R::Pack::splat(task.physics.constant_omega().unwrap_or(0.0));
-    for pack in 0..packs {
+    for pack in 0..block.usable.len() {
         let local = pack * line;
-        match pack + FAR {
-            far if far < packs => prefetch_pack(coming[0], far),
-            far => prefetch_pack(coming[1], far - packs),
-        }
-        if let Some((around, sources)) = later(pack + FAR) {
-            sources.prefetch_far(around);
-        }
+        ahead.ask(pack);
         let class = Class::new(task, block, own.number, pack, line);
         if class.fluid == 0 {
             continue;
         }
         let ordinary = straight && class.ordinary;
         if !ordinary {
-            if straight {
-                for part in (0..line).step_by(R::WIDTH) {
-                    let h = gather::<R>(&around, &sources[pack], part);
-                    for i in 0..Q {
-                        R::store(h[i], &mut stage.populations[i][part..]);
-                    }
-                }
-            } else {
-                stage.gather(task, own, &around, local);
-            }
+            let sources = task.sources.get(pack).filter(|_| straight);
+            stage.fill::<R, P>(task, own, &around, sources, local);
             stage.mend(task, block, own, &class, local);
         }
         for part in (0..line).step_by(R::WIDTH) {
             let h = if ordinary {
-                gather::<R>(&around, &sources[pack], part)
+                gather::<R>(&around, &task.sources[pack], part)
             } else {
-                directions(
-                    #[inline(always)]
-                    |i| R::load(&stage.populations[i][part..]),
-                )
+                stage.load::<R>(part)
             };
-            let force = three(
-                #[inline(always)]
-                |a| {
-                    if class.interface == 0 {
-                        R::Pack::splat(task.force[a])
-                    } else {
-                        R::load_wide(&stage.force[a][part..])
-                    }
-                },
-            );
+            let force = force_of::<R, P>(task, &stage, &class, part);
             let m = task.physics.moments(&h, &force);
-            let omega = match constant {
-                Some(omega) => omega,
-                // Known when compiling, so that what follows from ω⁺ is computed once per block.
-                None if !P::VARIES => rate,
-                None => omega::<R, P>(task, block, own, local + part, &m),
-            };
+            let omega = if solved { omega::<R, P>(task, block, own, local + part, &m) } else { rate };
             guard::<R, P>(task, block, (local + part, class.fluid >> part), &m, omega, &mut outcome);
-            if !own.lag.is_empty() {
-                R::store_wide(omega, &mut own.lag[local + part..]);
-            }
-            if !own.density.is_empty() {
-                R::store_wide(m.d_rho, &mut own.density[local + part..]);
-            }
-            if !own.velocity.is_empty() {
-                let cells = own.velocity.len() / 3;
-                for a in 0..3 {
-                    R::store_wide(m.u[a], &mut own.velocity[a * cells + local + part..]);
-                }
-            }
-            if task.surface.is_some() && ordinary {
-                R::add_wide(m.d_rho, &mut liquid[part..]);
-            }
+            keep::<R>(own, local + part, &m, omega);
             if !ordinary {
                 stage.keep::<R>(&m, omega, part);
+            } else if task.surface.is_some() {
+                R::add_wide(m.d_rho, &mut liquid[part..]);
             }
             let post = task.physics.collide(&h, &m, omega);
-            if R::WIDTH == line {
-                let new = &mut own.new.get_mut()[pack * Q * line..][..Q * line];
-                if task.past_cache {
-                    for i in 0..Q {
-                        R::store_past_cache(post[i], &mut new[i * line..]);
-                    }
-                } else {
-                    for i in 0..Q {
-                        R::store(post[i], &mut new[i * line..]);
-                    }
-                }
-            } else {
-                for i in 0..Q {
-                    R::store(post[i], &mut stage.populations[i][part..]);
-                }
-            }
+            store::<R>(task.past_cache, own, &mut stage, &post, (pack, part));
         }
         if !ordinary {
             outcome.liquid_excess += stage.finish(block, own, &class, local);
         }
         if R::WIDTH != line {
-            let new = own.new.get_mut();
-            for i in 0..Q {
-                let to = &mut new[(pack * Q + i) * line..][..line];
-                if task.past_cache {
-                    stores::line_past_cache(to, &stage.populations[i][..line]);
-                } else {
-                    to.copy_from_slice(&stage.populations[i][..line]);
-                }
-            }
+            stage.write(task.past_cache, &mut own.new.get_mut()[pack * Q * line..][..Q * line]);
         }
     }
     for sum in liquid {
         outcome.liquid_excess += sum;
     }
     outcome
+}
+
+/// What is asked for long before it is used: lines of this block, of those after it, and of those around.
+struct Ahead<'a, E> {
+    packs: usize,
+    /// The two blocks after this one.
+    coming: [&'a [E]; 2],
+    sources: &'a [Sources],
+    around: &'a Around<'a, E>,
+    /// Around the next block.
+    around_next: Option<Around<'a, E>>,
+}
+
+impl<'a, E: Element> Ahead<'a, E> {
+    #[inline(always)]
+    fn new<P>(task: &Task<'a, P, E>, number: usize, around: &'a Around<'a, E>) -> Self {
+        Self {
+            packs: task.blocks[number].usable.len(),
+            coming: [1, 2].map(|k| task.old.get(number + k).map_or(&[][..], Aligned::get)),
+            sources: task.sources,
+            around,
+            around_next: task.around_next(number),
+        }
+    }
+
+    /// Asks for what belongs to the pack [`FAR`] packs later: of this block, or beyond its end of the next.
+    #[inline(always)]
+    fn ask(&self, pack: usize) {
+        let far = pack + FAR;
+        if far < self.packs {
+            prefetch_pack(self.coming[0], far);
+        } else {
+            prefetch_pack(self.coming[1], far - self.packs);
+        }
+        let later = match self.sources.get(far) {
+            Some(later) => Some((self.around, later)),
+            None => self.around_next.as_ref().zip(self.sources.get(far.wrapping_sub(self.packs))),
+        };
+        if let Some((around, sources)) = later {
+            sources.prefetch_far(around);
+        }
+    }
+}
+
+/// Body force of one part of a pack.
+#[inline(always)]
+fn force_of<R: Registers, P: Physics>(
+    task: &Task<P, R::Element>,
+    stage: &Stage<R::Element>,
+    class: &Class,
+    part: usize,
+) -> [R::Pack; 3] {
+    if class.interface != 0 {
+        return stage.load_force::<R>(part);
+    }
+    three(
+        #[inline(always)]
+        |a| R::Pack::splat(task.force[a]),
+    )
+}
+
+/// Writes down what a block keeps of every cell: ω⁺, ρ − 1 and u, where it is asked for.
+#[inline(always)]
+fn keep<R: Registers>(own: &mut Own<R::Element>, local: usize, m: &Moments<R::Pack>, omega: R::Pack) {
+    if !own.lag.is_empty() {
+        R::store_wide(omega, &mut own.lag[local..]);
+    }
+    if !own.density.is_empty() {
+        R::store_wide(m.d_rho, &mut own.density[local..]);
+    }
+    if !own.velocity.is_empty() {
+        let cells = own.velocity.len() / 3;
+        for a in 0..3 {
+            R::store_wide(m.u[a], &mut own.velocity[a * cells + local..]);
+        }
+    }
+}
+
+/// Stores one part of a pack where it fills whole lines, else puts it on the stage.
+#[inline(always)]
+fn store<R: Registers>(
+    past_cache: bool,
+    own: &mut Own<R::Element>,
+    stage: &mut Stage<R::Element>,
+    post: &[R::Pack; Q],
+    (pack, part): (usize, usize),
+) {
+    let line = R::Element::PER_LINE;
+    if R::WIDTH != line {
+        return stage.store::<R>(post, part);
+    }
+    let to = &mut own.new.get_mut()[pack * Q * line..][..Q * line];
+    if past_cache {
+        for i in 0..Q {
+            R::store_past_cache(post[i], &mut to[i * line..]);
+        }
+    } else {
+        for i in 0..Q {
+            R::store(post[i], &mut to[i * line..]);
+        }
+    }
 }
 
 /// Asks for the lines of a pack of a block to come.

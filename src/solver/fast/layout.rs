@@ -69,6 +69,12 @@ impl Layout {
         1 << (self.shift[0] + self.shift[1] + self.shift[2])
     }
 
+    /// Populations per block.
+    #[must_use]
+    pub fn block_len(&self) -> usize {
+        Q * self.block_cells()
+    }
+
     /// Number of places for blocks.
     #[must_use]
     pub fn places(&self) -> usize {

@@ -5,7 +5,7 @@ use super::element::Element;
 use super::layout::Layout;
 use super::rim::Rim;
 use super::sources::Sources;
-use super::surface::{InterfaceCell, Lanes};
+use super::surface::record::{InterfaceCell, Lanes};
 use crate::setup::{Face, Precision, Setup};
 
 /// Cells per pack: a line of the cache.

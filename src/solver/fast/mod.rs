@@ -1,11 +1,13 @@
 //! The fast backend: the same equations in packs, in blocks that hold fluid, on several threads.
 
+pub mod around;
 pub mod block;
 pub mod element;
 mod grains;
 pub mod instructions;
 pub mod kernel;
 pub mod layout;
+pub mod links;
 pub mod memory;
 pub mod registers;
 mod report;
@@ -15,17 +17,16 @@ pub mod sources;
 pub mod stage;
 pub mod stores;
 pub mod surface;
+pub mod task;
+mod walls;
 #[cfg(target_arch = "x86_64")]
 mod x86;
-#[cfg(target_arch = "x86_64")]
-mod x86_single;
 
 use crate::collision::{CentralMoment, CollisionChoice};
-use crate::rheology::{Bingham, HerschelBulkley, Law, Newtonian, Prepared};
 use crate::setup::{Precision, Setup};
-use crate::solver::physics::{Physics, Standard};
+use crate::solver::compiled::{Compiled, with_newtonian_loop, with_own_loop, with_shared_loop};
+use crate::solver::physics::Physics;
 use crate::solver::run::{Backend, Run, StartError};
-use element::Element;
 use instructions::{Chosen, Instructions, Passes};
 pub use run::FastRun;
 
@@ -50,54 +51,47 @@ impl Backend for Fast {
         match setup.precision {
             Precision::Double => double(setup, chosen),
             Precision::Single => single(setup, chosen),
-            Precision::SingleStorage => boxed(setup, any_law(setup), chosen, Passes::STORED),
+            Precision::SingleStorage => with_shared_loop(setup, Stored(setup, chosen)),
         }
     }
 }
 
-/// Compiled for each of the laws that most scenes have, and for any.
 fn double(setup: &Setup, chosen: Chosen) -> Result<Box<dyn Run>, StartError> {
-    let treatment = setup.yielding;
-    match (setup.collision, setup.fluids.as_slice()) {
-        (CollisionChoice::CentralMoment(odd), &[Law::Newtonian { mu }]) => {
-            let (laws, collision) = (vec![Newtonian { mu }], CentralMoment { odd });
-            boxed(setup, Standard { laws, treatment, collision }, chosen, Passes::DOUBLE)
+    let start = Double(setup, chosen);
+    match setup.collision {
+        CollisionChoice::CentralMoment(odd) => with_own_loop(setup, CentralMoment { odd }, start),
+        CollisionChoice::Bgk | CollisionChoice::Trt(_) | CollisionChoice::Regularised => {
+            with_shared_loop(setup, start)
         }
-        (CollisionChoice::CentralMoment(odd), &[Law::Bingham { sigma0, mu }]) => {
-            let (laws, collision) = (vec![Bingham { sigma0, mu }], CentralMoment { odd });
-            boxed(setup, Standard { laws, treatment, collision }, chosen, Passes::DOUBLE)
-        }
-        (CollisionChoice::CentralMoment(odd), &[Law::HerschelBulkley { sigma0, k, n }]) => {
-            let (laws, collision) = (vec![HerschelBulkley::new(sigma0, k, n)], CentralMoment { odd });
-            boxed(setup, Standard { laws, treatment, collision }, chosen, Passes::DOUBLE)
-        }
-        _ => boxed(setup, any_law(setup), chosen, Passes::DOUBLE),
     }
 }
 
 /// Compiled for the Newtonian law and for any: more variants would take minutes to build.
 fn single(setup: &Setup, chosen: Chosen) -> Result<Box<dyn Run>, StartError> {
-    match (setup.collision, setup.fluids.as_slice()) {
-        (CollisionChoice::CentralMoment(odd), &[Law::Newtonian { mu }]) => {
-            let (laws, collision) = (vec![Newtonian { mu }], CentralMoment { odd });
-            let physics = Standard { laws, treatment: setup.yielding, collision };
-            boxed(setup, physics, chosen, Passes::SINGLE)
+    let start = Single(setup, chosen);
+    match setup.collision {
+        CollisionChoice::CentralMoment(odd) => with_newtonian_loop(setup, CentralMoment { odd }, start),
+        CollisionChoice::Bgk | CollisionChoice::Trt(_) | CollisionChoice::Regularised => {
+            with_shared_loop(setup, start)
         }
-        _ => boxed(setup, any_law(setup), chosen, Passes::SINGLE),
     }
 }
 
-/// Laws and collision operator chosen at run time.
-fn any_law(setup: &Setup) -> Standard<Prepared, CollisionChoice> {
-    let laws = setup.fluids.iter().map(Law::prepare).collect();
-    Standard { laws, treatment: setup.yielding, collision: setup.collision }
+/// Starts a run of a setup in one precision.
+macro_rules! start {
+    ($name:ident, $passes:ident) => {
+        struct $name<'a>(&'a Setup, Chosen);
+
+        impl Compiled for $name<'_> {
+            type Result = Result<Box<dyn Run>, StartError>;
+
+            fn with<P: Physics>(self, physics: P) -> Self::Result {
+                Ok(Box::new(FastRun::start(self.0, physics, self.1, Passes::$passes)?))
+            }
+        }
+    };
 }
 
-fn boxed<P: Physics, E: Element>(
-    setup: &Setup,
-    physics: P,
-    chosen: Chosen,
-    passes: Passes<P, E>,
-) -> Result<Box<dyn Run>, StartError> {
-    Ok(Box::new(FastRun::start(setup, physics, chosen, passes)?))
-}
+start!(Double, DOUBLE);
+start!(Single, SINGLE);
+start!(Stored, STORED);

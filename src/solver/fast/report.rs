@@ -1,14 +1,18 @@
 //! What a run in blocks tells about itself: the same sums in the same order as the plain backend.
 
+use super::block::Block;
 use super::element::{Aligned, Element};
+use super::memory::sources_bytes;
 use super::run::FastRun;
+use super::surface::state::Surface;
 use crate::coupling::Immersed;
 use crate::fingerprint::{Fingerprint, Hasher};
 use crate::lattice::Q;
-use crate::lattice::moments::moments;
+use crate::lattice::moments::Moments;
 use crate::setup::Setup;
+use crate::solver::cell::{self, State};
+use crate::solver::observe::{self, Observed};
 use crate::solver::physics::Physics;
-use crate::solver::plain::cell;
 use crate::solver::run::{Fields, Ledger, Load, Run, Stopped, Totals};
 
 impl<P: Physics, E: Element> FastRun<P, E> {
@@ -28,9 +32,62 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             Some(surface) => surface.kinds[number][local].is_fluid(),
         }
     }
+}
 
-    fn force_here(&self, number: usize, local: usize, force: &[f64; 3]) -> [f64; 3] {
+impl<P: Physics, E: Element> Observed for FastRun<P, E> {
+    /// Number in the box, block and place in it.
+    type At = (usize, usize, usize);
+
+    fn in_order(&self) -> impl Iterator<Item = Self::At> {
+        FastRun::in_order(self)
+    }
+    fn number(&self, (cell, ..): Self::At) -> usize {
+        cell
+    }
+    fn arrived(&self, (_, number, local): Self::At) -> [f64; Q] {
+        FastRun::arrived(self, number, local)
+    }
+    fn body_force(&self) -> [f64; 3] {
+        FastRun::body_force(self)
+    }
+    fn force_on(&self, (_, number, local): Self::At, force: &[f64; 3]) -> [f64; 3] {
         self.force_of(number, local, force).unwrap_or(*force)
+    }
+    fn state(&self, (_, number, local): Self::At, force: &[f64; 3]) -> State {
+        let previous = self.lag[number].get(local).copied().unwrap_or(0.0);
+        let fluid = self.blocks[number].fluid.get(local).copied().unwrap_or(0);
+        cell::state(&self.physics, &FastRun::arrived(self, number, local), force, fluid, previous)
+    }
+    fn mass_of(&self, (_, number, local): Self::At, m: &Moments<f64>) -> (f64, f64) {
+        self.surface.as_ref().map_or((m.d_rho, m.rho), |surface| surface.mass_of(number, local, m))
+    }
+    fn blank_fields(&self) -> Fields {
+        let mut fields = Fields::empty(self.setup.cells());
+        if let Some(surface) = &self.surface {
+            surface.start_fields(self, &mut fields);
+        }
+        fields
+    }
+    fn fill_of(&self, (_, number, local): Self::At, rho: f64) -> f64 {
+        self.surface.as_ref().map_or(1.0, |surface| surface.fill_of(number, local, rho))
+    }
+    fn hash_surface(&self, (cell, number, local): Self::At, hasher: &mut Hasher) {
+        if let Some(surface) = &self.surface {
+            surface.hash_cell(hasher, cell, number, local);
+        }
+    }
+    fn hash_parked(&self, hasher: &mut Hasher) {
+        for (cell, mass) in self.surface.iter().flat_map(|surface| &surface.parked) {
+            hasher.number(f64::from(*cell));
+            hasher.number(*mass);
+        }
+    }
+    fn hash_memory(&self, (_, number, local): Self::At, hasher: &mut Hasher) {
+        let inertia = self.surface.as_ref().and_then(|surface| surface.inertia.as_ref());
+        let acceleration = inertia.map(|inertia| inertia.acceleration_of(number, local));
+        for number in acceleration.iter().flatten().chain(self.lag[number].get(local)) {
+            hasher.number(*number);
+        }
     }
 }
 
@@ -48,23 +105,7 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
     }
 
     fn fields(&self) -> Fields {
-        let mut fields = Fields::empty(self.setup.cells());
-        if let Some(surface) = &self.surface {
-            surface.start_fields(self, &mut fields);
-        }
-        let force = self.body_force();
-        for (cell, number, local) in self.in_order() {
-            let f = self.arrived(number, local);
-            let here = self.force_here(number, local, &force);
-            let previous = self.lag[number].get(local).copied().unwrap_or(0.0);
-            let fluid = self.blocks[number].fluid.get(local).copied().unwrap_or(0);
-            let state = cell::state(&self.physics, &f, &here, fluid, previous);
-            fields.record(cell, &state.m, state.omega);
-            if let Some(surface) = &self.surface {
-                fields.fill[cell] = surface.fill_of(number, local, state.m.rho);
-            }
-        }
-        fields
+        observe::fields(self)
     }
 
     fn populations(&self, cell: usize) -> [f64; Q] {
@@ -78,49 +119,11 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
     }
 
     fn totals(&self) -> Totals {
-        let force = self.body_force();
-        let mut totals = Totals { mass_excess: 0.0, momentum: [0.0; 3], kinetic_energy: 0.0 };
-        for (_, number, local) in self.in_order() {
-            let m = moments(&self.arrived(number, local), &self.force_here(number, local, &force));
-            let (excess, mass) = match &self.surface {
-                None => (m.d_rho, m.rho),
-                Some(surface) => surface.mass_of(number, local, &m),
-            };
-            totals.mass_excess += excess;
-            let u2 = (m.u[0] * m.u[0] + m.u[1] * m.u[1]) + m.u[2] * m.u[2];
-            totals.kinetic_energy += 0.5 * mass * u2;
-            for a in 0..3 {
-                totals.momentum[a] += mass * m.u[a];
-            }
-        }
-        totals
+        observe::totals(self)
     }
 
     fn fingerprint(&self) -> Fingerprint {
-        let force = self.body_force();
-        let mut hasher = Hasher::default();
-        let mut max_speed2 = 0.0_f64;
-        for (cell, number, local) in self.in_order() {
-            let f = self.arrived(number, local);
-            hasher.cell(&f);
-            if let Some(surface) = &self.surface {
-                surface.hash_cell(&mut hasher, cell, number, local);
-            }
-            let u = moments(&f, &self.force_here(number, local, &force)).u;
-            max_speed2 = max_speed2.max((u[0] * u[0] + u[1] * u[1]) + u[2] * u[2]);
-        }
-        self.hash_rest(&mut hasher);
-        if let Some(grains) = &self.grains {
-            grains.add_to_hash(&mut hasher);
-        }
-        let totals = self.totals();
-        Fingerprint {
-            step: self.step,
-            hash: hasher.finish(),
-            mass_excess: totals.mass_excess,
-            momentum: totals.momentum,
-            max_speed: max_speed2.sqrt(),
-        }
+        observe::fingerprint(self)
     }
 
     fn fluid_cells(&self) -> u64 {
@@ -166,10 +169,10 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
         let populations: u64 = self.old.iter().chain(&self.new).map(Aligned::bytes).sum();
         let rim: usize = self.rim.iter().map(|rim| size_of_val(rim.as_slice())).sum();
         let numbers: usize = self.density.iter().chain(&self.lag).map(|n| size_of_val(n.as_slice())).sum();
-        let blocks: u64 = self.blocks.iter().map(super::block::Block::bytes).sum();
+        let blocks: u64 = self.blocks.iter().map(Block::bytes).sum();
         let marks = self.setup.solids.len() + self.setup.fluid_of_cell.len();
-        let surface = self.surface.as_ref().map_or(0, super::surface::Surface::bytes);
-        let sources = super::memory::sources_bytes(&self.layout, E::PER_LINE);
+        let surface = self.surface.as_ref().map_or(0, Surface::bytes);
+        let sources = sources_bytes(&self.layout, E::PER_LINE);
         let grains = self.grains.as_ref().map_or(0, |grains| grains.bytes());
         populations
             + (rim + numbers + marks) as u64

@@ -4,23 +4,24 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::block::{Block, From, Place, Velocities, numbers_around};
-use super::element::{Aligned, Element};
+use super::block::{Block, Origin, Place, Velocities, numbers_around, put};
+use super::element::{Aligned, Element, index};
 use super::instructions::{Chosen, Passes};
-use super::kernel::{Outcome, Own, Task, block_len, index};
 use super::layout::{Layout, NONE};
-use super::rim::{Rim, WallTask, correct};
+use super::links::{after, open_link, wall_link};
+use super::rim::{Rim, WallTask};
 use super::sources::Sources;
-use super::stage::{after, open_link, wall_link};
 use super::stores;
-use super::surface::{Surface, put};
+use super::surface::state::Surface;
+use super::task::{Outcome, Own, Task};
+use super::walls::correct;
 use crate::coupling::Immersed;
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
 use crate::setup::{Setup, WallRule, YieldTreatment};
 use crate::solver::initial;
 use crate::solver::physics::Physics;
-use crate::solver::plain::starting_omega;
+use crate::solver::pool::{self, each};
 use crate::solver::run::{StartError, Stopped};
 
 /// Populations above this many bytes do not fit the caches: stores then go past them.
@@ -77,9 +78,6 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         if !P::VARIES && physics.constant_omega().is_none() {
             return Err(unsupported("several Newtonian fluids in the pass made for one"));
         }
-        let pool = (setup.threads > 1)
-            .then(|| rayon::ThreadPoolBuilder::new().num_threads(setup.threads).build().ok())
-            .flatten();
         let layout = Layout::new(setup.extents, E::PER_LINE);
         let mut run = Self {
             setup: setup.clone(),
@@ -101,7 +99,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             step: 0,
             seconds: [0.0; 5],
             fluid_cells: 0,
-            pool,
+            pool: pool::start(setup.threads),
         };
         if setup.free_surface.is_some() || setup.grains.is_some() {
             run.start_surface()?;
@@ -136,8 +134,8 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         put(&mut self.density, number, vec![0.0; if walls { cells } else { 0 }]);
         let lagged = matches!(self.setup.yielding, YieldTreatment::LaggedClamped { .. });
         put(&mut self.lag, number, vec![0.0; if lagged { cells } else { 0 }]);
-        put(&mut self.old, number, Aligned::zeros(block_len(&self.layout)));
-        put(&mut self.new, number, Aligned::zeros(block_len(&self.layout)));
+        put(&mut self.old, number, Aligned::zeros(self.layout.block_len()));
+        put(&mut self.new, number, Aligned::zeros(self.layout.block_len()));
         put(&mut self.blocks, number, block);
         Some(number)
     }
@@ -161,7 +159,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                     old.get_mut()[index::<E>(local, i)] = E::from_f64(*f);
                 }
                 if let Some(omega) = lag.get_mut(local) {
-                    *omega = starting_omega(setup, cell);
+                    *omega = initial::starting_omega(setup, cell);
                 }
             }
             count
@@ -336,16 +334,16 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 continue;
             };
             f[i] = match link.from {
-                From::Cell { cell, direction } => {
+                Origin::Cell { cell, direction } => {
                     let number = self.layout.block_at(cell.block as usize) as usize;
                     self.old[number].get()[index::<E>(cell.local as usize, usize::from(direction))].to_f64()
                 }
-                From::Wall { velocity, .. } => {
+                Origin::Wall { velocity, .. } => {
                     let u = &self.velocities.list[velocity as usize];
                     let rho = 1.0 + density_excess(&own);
                     wall_link(&task, number, &self.rim[number], link, rho, u)
                 }
-                From::Open => open_link(&task, number, &self.rim[number], link),
+                Origin::Open => open_link(&task, number, &self.rim[number], link),
             };
         }
         f
@@ -356,17 +354,5 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             self.advance_one()?;
         }
         Ok(())
-    }
-}
-
-/// Runs `work` on every item, on the pool if there is one; results in order.
-pub(super) fn each<I: Send, T: Send>(
-    pool: Option<&rayon::ThreadPool>,
-    items: Vec<I>,
-    work: impl Fn(I) -> T + Sync + Send,
-) -> Vec<T> {
-    match pool {
-        Some(pool) => pool.install(|| items.into_par_iter().map(work).collect()),
-        None => items.into_iter().map(work).collect(),
     }
 }

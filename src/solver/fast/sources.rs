@@ -1,10 +1,9 @@
 //! Where ordinary packs are gathered from: the same for every block, hence tabulated.
 
-use super::element::Element;
-use super::kernel::index;
+use super::around::Around;
+use super::element::{Element, index};
 use super::layout::Layout;
 use super::registers::Registers;
-use super::stage::Around;
 use super::stores;
 use crate::lattice::unroll::directions;
 use crate::lattice::{C, Q};

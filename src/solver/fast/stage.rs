@@ -1,17 +1,19 @@
 //! Packs that are not ordinary: their populations are put together one by one before they are collided.
 
-use super::block::{Block, From, Link, numbers_around};
-use super::element::{Aligned, Element};
-use super::kernel::{Own, Task, index};
-use super::layout::{Layout, NONE};
+use super::around::Around;
+use super::block::{Block, Origin};
+use super::element::{Element, MOST, index};
+use super::layout::Layout;
+use super::links::{density_at_wall, open_link, wall_link};
 use super::registers::Registers;
-use super::surface::Lanes;
-use crate::lattice::moments::{Moments, density_excess};
-use crate::lattice::{Q, opposite};
+use super::sources::{self, Sources};
+use super::stores;
+use super::surface::record::Lanes;
+use super::task::{Own, Task};
+use crate::lattice::Q;
+use crate::lattice::moments::Moments;
+use crate::lattice::unroll::{directions, three};
 use crate::solver::physics::Physics;
-
-/// Most cells side by side: a line of f32.
-pub const MOST: usize = 16;
 
 /// What the cells of a pack are.
 #[derive(Clone, Copy, Debug)]
@@ -40,41 +42,6 @@ impl Class {
     }
 }
 
-/// The populations around a block: 27 slices, the block's own where there is none.
-pub struct Around<'a, E> {
-    /// As [`Layout::around`].
-    pub slices: [&'a [E]; 27],
-}
-
-impl<'a, E: Element> Around<'a, E> {
-    /// Around a block.
-    pub fn new<P>(task: &Task<'a, P, E>, number: usize) -> Self {
-        let old: &'a [Aligned<E>] = task.old;
-        let own = old[number].get();
-        // What the unchecked loads of `sources::gather` rely on.
-        assert_eq!(own.len(), super::kernel::block_len(task.layout));
-        let numbers = numbers_around(task.layout, task.blocks[number].place);
-        let slices = numbers.map(|n| match n {
-            NONE => own,
-            n => Some(old[n as usize].get()).filter(|other| other.len() == own.len()).unwrap_or(own),
-        });
-        Self { slices }
-    }
-
-    /// Around the block after this one, if there is one that holds anything.
-    #[inline]
-    pub fn next<P>(task: &Task<'a, P, E>, number: usize) -> Option<Self> {
-        let next = task.old.get(number + 1)?;
-        (next.get().len() == task.old[number].get().len()).then(|| Self::new(task, number + 1))
-    }
-
-    /// The populations of one of the 27.
-    #[inline(always)]
-    pub fn entry(&self, at: usize) -> &'a [E] {
-        super::stores::entry(&self.slices, at)
-    }
-}
-
 /// Columns of one pack.
 ///
 /// Aligned so that the function it lives in aligns its stack: registers that are put aside there would
@@ -82,9 +49,9 @@ impl<'a, E: Element> Around<'a, E> {
 #[repr(align(64))]
 pub struct Stage<E> {
     /// Populations before collision, then after.
-    pub populations: [[E; MOST]; Q],
+    populations: [[E; MOST]; Q],
     /// Body force; filled where the pack has interface cells.
-    pub force: [[f64; MOST]; 3],
+    force: [[f64; MOST]; 3],
     /// u, ω⁺ and ρ − 1 of this collision.
     velocity: [[f64; MOST]; 3],
     omega: [f64; MOST],
@@ -104,9 +71,26 @@ impl<E: Element> Stage<E> {
         }
     }
 
+    /// Gathers a pack that starts at `local`; `sources`: those of the pack, where they are tabulated.
+    #[inline(always)]
+    pub fn fill<R: Registers<Element = E>, P: Physics>(
+        &mut self,
+        task: &Task<P, E>,
+        own: &Own<E>,
+        around: &Around<E>,
+        sources: Option<&Sources>,
+        local: usize,
+    ) {
+        let Some(sources) = sources else { return self.gather(task, own, around, local) };
+        for part in (0..E::PER_LINE).step_by(R::WIDTH) {
+            let h = sources::gather::<R>(around, sources, part);
+            self.store::<R>(&h, part);
+        }
+    }
+
     /// Gathers a pack that starts at `local` where rows do not run along x, or before the first collision.
     #[inline(never)]
-    pub fn gather<P: Physics>(&mut self, task: &Task<P, E>, own: &Own<E>, around: &Around<E>, local: usize) {
+    fn gather<P: Physics>(&mut self, task: &Task<P, E>, own: &Own<E>, around: &Around<E>, local: usize) {
         let line = E::PER_LINE;
         let own_old = task.old[own.number].get();
         for (i, column) in self.populations.iter_mut().enumerate() {
@@ -163,19 +147,19 @@ impl<E: Element> Stage<E> {
                 continue;
             }
             let value = match link.from {
-                From::Cell { cell, direction } => {
+                Origin::Cell { cell, direction } => {
                     let number = task.layout.block_at(cell.block as usize);
                     task.old[number as usize].get()[index::<E>(cell.local as usize, usize::from(direction))]
                 }
-                From::Wall { .. } | From::Open if returned.is_some() => {
+                Origin::Wall { .. } | Origin::Open if returned.is_some() => {
                     E::from_f64(returned.map_or(0.0, |values| values[place]))
                 }
-                From::Wall { velocity, .. } => {
+                Origin::Wall { velocity, .. } => {
                     let u = &task.velocities[velocity as usize];
                     let rho = density_at_wall(task, own.number, at, u);
                     E::from_f64(wall_link(task, own.number, own.rim, link, rho, u))
                 }
-                From::Open => E::from_f64(open_link(task, own.number, own.rim, link)),
+                Origin::Open => E::from_f64(open_link(task, own.number, own.rim, link)),
             };
             self.populations[usize::from(link.direction)][lane] = value;
         }
@@ -215,6 +199,46 @@ impl<E: Element> Stage<E> {
                 for (f, column) in kept.f.iter_mut().zip(&self.populations) {
                     *f = column[lane].to_f64();
                 }
+            }
+        }
+    }
+
+    /// Populations of one part of the pack.
+    #[inline(always)]
+    pub fn load<R: Registers<Element = E>>(&self, part: usize) -> [R::Pack; Q] {
+        directions(
+            #[inline(always)]
+            |i| R::load(&self.populations[i][part..]),
+        )
+    }
+
+    /// Body force of one part of the pack.
+    #[inline(always)]
+    pub fn load_force<R: Registers<Element = E>>(&self, part: usize) -> [R::Pack; 3] {
+        three(
+            #[inline(always)]
+            |a| R::load_wide(&self.force[a][part..]),
+        )
+    }
+
+    /// Puts the populations of one part of the pack here.
+    #[inline(always)]
+    pub fn store<R: Registers<Element = E>>(&mut self, populations: &[R::Pack; Q], part: usize) {
+        for i in 0..Q {
+            R::store(populations[i], &mut self.populations[i][part..]);
+        }
+    }
+
+    /// Writes the populations line by line; `to`: the numbers of the pack.
+    #[inline(always)]
+    pub fn write(&self, past_cache: bool, to: &mut [E]) {
+        let line = E::PER_LINE;
+        for i in 0..Q {
+            let to = &mut to[i * line..][..line];
+            if past_cache {
+                stores::line_past_cache(to, &self.populations[i][..line]);
+            } else {
+                to.copy_from_slice(&self.populations[i][..line]);
             }
         }
     }
@@ -278,64 +302,5 @@ fn gather_row<E: Element>(layout: &Layout, around: &Around<E>, i: usize, local: 
             to[line - 1] = if x + line == row { at(entry + 1, first) } else { at(entry, first + x + line) };
         }
         _ => to.copy_from_slice(own),
-    }
-}
-
-/// Populations of a cell after the last collision.
-#[inline]
-pub fn after<P, E: Element>(task: &Task<P, E>, number: usize, local: usize) -> [f64; Q] {
-    let own = task.old[number].get();
-    std::array::from_fn(|i| own[index::<E>(local, i)].to_f64())
-}
-
-/// ρ of a cell after the last collision, for [`wall_link`]; 1 where the wall rests and ρ is multiplied by zero.
-#[inline]
-pub fn density_at_wall<P, E: Element>(
-    task: &Task<P, E>,
-    number: usize,
-    local: usize,
-    velocity: &[f64; 3],
-) -> f64 {
-    if *velocity == [0.0; 3] { 1.0 } else { 1.0 + density_excess(&after(task, number, local)) }
-}
-
-/// What a wall sends back along a link \[B1\] \[B3\], as it is stored.
-#[inline]
-pub fn wall_link<P: Physics, E: Element>(
-    task: &Task<P, E>,
-    number: usize,
-    rim: &[super::rim::Rim],
-    link: &Link,
-    rho: f64,
-    velocity: &[f64; 3],
-) -> f64 {
-    let out = opposite(usize::from(link.direction));
-    let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
-    let correction = rim.get(usize::from(link.rim)).map_or(0.0, |kept| kept.correction[out]);
-    stored::<E>(task.physics.wall(leaving - correction, out, rho, velocity))
-}
-
-/// What is left of a number when it is stored: the ledger books what the cell gets.
-#[inline(always)]
-fn stored<E: Element>(x: f64) -> f64 {
-    E::from_f64(x).to_f64()
-}
-
-/// What an open face sends back, as it is stored: as gas where fluid leaves, as a wall at rest where it would
-/// come in.
-#[inline]
-pub fn open_link<P: Physics, E: Element>(
-    task: &Task<P, E>,
-    number: usize,
-    rim: &[super::rim::Rim],
-    link: &Link,
-) -> f64 {
-    let out = opposite(usize::from(link.direction));
-    let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
-    let u = rim.get(usize::from(link.rim)).map_or([0.0; 3], |kept| kept.velocity);
-    if crate::lattice::equilibrium::dot(out, &u) > 0.0 {
-        stored::<E>(task.physics.gas_link(leaving, out, &u, || leaving))
-    } else {
-        leaving
     }
 }

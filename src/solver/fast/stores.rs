@@ -4,10 +4,7 @@
 //! ordinary store first fetches the line it is about to overwrite, which makes 456. Non-temporal
 //! stores leave that out; they need an intrinsic, hence the `unsafe` here.
 
-use super::element::Element;
-
-/// Bytes of a cache line.
-pub const LINE_BYTES: usize = 64;
+use super::element::{Element, LINE_BYTES};
 
 /// Copies one line to memory without fetching it; an ordinary copy where the processor has no such store or
 /// the place is not the start of a line.

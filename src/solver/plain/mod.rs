@@ -1,20 +1,24 @@
 //! The plain backend: scalar `f64`, one array entry per cell, written to be read beside the design.
 //!
-//! A step is: wall slip where a wall needs it \[B3\], collide every cell, stream every cell. Each
-//! pass reads one array and writes another, so the result does not depend on the number of threads.
+//! A step is: wall slip where a wall needs it \[B3\], collide every cell, exchange mass below a free surface
+//! \[F1\], stream every cell, convert cells \[F4\]. Each pass reads one array and writes another, so the result
+//! does not depend on the number of threads. `run.rs` has the arrays and the order of the passes, `passes.rs` what
+//! every flow needs, `surface` what cells with a kind need besides.
 
-pub mod cell;
+mod grains;
+mod passes;
+mod report;
 mod run;
 mod surface;
 
 use crate::collision::{Bgk, CentralMoment, CollisionChoice};
-use crate::rheology::{Bingham, HerschelBulkley, Law, Newtonian};
-use crate::setup::{Precision, Setup, YieldTreatment};
-use crate::solver::physics::{Physics, Standard};
+use crate::setup::{Precision, Setup};
+use crate::solver::compiled::{Compiled, with_own_loop, with_shared_loop};
+use crate::solver::physics::Physics;
 use crate::solver::run::{Backend, Run, StartError};
 
-pub use run::{PlainRun, starting_omega};
-pub use surface::SurfaceRun;
+pub use run::PlainRun;
+pub use surface::{Collided, Design, SurfaceLink, SurfacePhysics};
 
 /// The plain backend.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,56 +35,22 @@ impl Backend for Plain {
             let feature = "populations in single precision";
             return Err(StartError::Unsupported { backend: "plain", feature });
         }
-        let treatment = setup.yielding;
-        // The common laws and operators get a loop of their own; the others, and several fluids, share
-        // one that chooses per cell. The bits are the same either way, the speed is not. Below a free
-        // surface only the default operator has loops of its own: each costs build time.
-        macro_rules! own_loop {
-            ($collision:expr, $boxed:ident) => {
-                match setup.fluids.as_slice() {
-                    &[Law::Newtonian { mu }] => {
-                        $boxed(setup, standard(Newtonian { mu }, treatment, $collision))
-                    }
-                    &[Law::Bingham { sigma0, mu }] => {
-                        $boxed(setup, standard(Bingham { sigma0, mu }, treatment, $collision))
-                    }
-                    &[Law::HerschelBulkley { sigma0, k, n }] => {
-                        $boxed(setup, standard(HerschelBulkley::new(sigma0, k, n), treatment, $collision))
-                    }
-                    _ => shared_loop(setup),
-                }
-            };
-        }
+        // Each operator with loops of its own costs build time.
         match setup.collision {
-            CollisionChoice::Bgk if !with_surface(setup) => own_loop!(Bgk, closed),
-            CollisionChoice::CentralMoment(odd) => own_loop!(CentralMoment { odd }, boxed),
-            _ => shared_loop(setup),
+            CollisionChoice::Bgk => with_own_loop(setup, Bgk, Start(setup)),
+            CollisionChoice::CentralMoment(odd) => with_own_loop(setup, CentralMoment { odd }, Start(setup)),
+            CollisionChoice::Trt(_) | CollisionChoice::Regularised => with_shared_loop(setup, Start(setup)),
         }
     }
 }
 
-fn standard<R, C>(law: R, treatment: YieldTreatment, collision: C) -> Standard<R, C> {
-    Standard { laws: vec![law], treatment, collision }
-}
+/// Starts a run of a setup.
+struct Start<'a>(&'a Setup);
 
-fn shared_loop(setup: &Setup) -> Result<Box<dyn Run>, StartError> {
-    let physics = Standard {
-        laws: setup.fluids.iter().map(Law::prepare).collect(),
-        treatment: setup.yielding,
-        collision: setup.collision,
-    };
-    boxed(setup, physics)
-}
+impl Compiled for Start<'_> {
+    type Result = Result<Box<dyn Run>, StartError>;
 
-fn boxed<P: Physics>(setup: &Setup, physics: P) -> Result<Box<dyn Run>, StartError> {
-    if with_surface(setup) { surface::boxed(setup, physics) } else { closed(setup, physics) }
-}
-
-/// Grains are coupled to the run that knows kinds of cells, with or without gas.
-fn with_surface(setup: &Setup) -> bool {
-    setup.free_surface.is_some() || setup.grains.is_some()
-}
-
-fn closed<P: Physics>(setup: &Setup, physics: P) -> Result<Box<dyn Run>, StartError> {
-    Ok(Box::new(PlainRun::start(setup, physics)?))
+    fn with<P: Physics>(self, physics: P) -> Self::Result {
+        Ok(Box::new(PlainRun::start(self.0, physics)?))
+    }
 }

@@ -16,6 +16,7 @@ pub mod poiseuille;
 pub mod settling;
 pub mod slump;
 pub mod stability;
+mod unguarded;
 pub mod unsteady;
 pub mod viscosity;
 pub mod work_precision;

@@ -6,7 +6,6 @@ mod equilibrium;
 mod identities;
 mod mutants;
 mod shear_rate;
-pub(super) mod wrong;
 
 use crate::golden::Agreement;
 use crate::study::Study;

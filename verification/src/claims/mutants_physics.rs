@@ -1,18 +1,27 @@
 //! Backends with one equation wrong: most are misprints of the papers.
 
+use std::sync::Arc;
+
 use lahar::boundary::bounce_back::bounce_back;
-use lahar::collision::{Collision, CollisionChoice};
+use lahar::boundary::links::Links;
+use lahar::collision::forcing_guo::{even_source, odd_source};
+use lahar::collision::{Bgk, Collision, CollisionChoice};
 use lahar::free_surface::Kind;
+use lahar::free_surface::conversion::excess::excess;
+use lahar::free_surface::exchange::{self, link_mass};
 use lahar::lane::Lane;
-use lahar::lattice::Q;
-use lahar::lattice::W;
 use lahar::lattice::equilibrium::dot;
-use lahar::lattice::moments::{Moments, deviator, magnitude, momentum, non_equilibrium, second};
+use lahar::lattice::moments::{
+    Moments, density_excess, deviator, magnitude, momentum, non_equilibrium, second,
+};
+use lahar::lattice::{Q, W, opposite};
 use lahar::rheology::{Law, Prepared};
 use lahar::setup::Setup;
 use lahar::solver::physics::{Physics, Standard};
-use lahar::solver::plain::{PlainRun, SurfaceRun};
+use lahar::solver::plain::{Collided, Design, PlainRun, SurfaceLink, SurfacePhysics};
 use lahar::solver::run::{Backend, Run, StartError};
+
+use super::unguarded::Unguarded;
 
 /// The one thing that is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +50,16 @@ pub enum Mistake {
     ExchangeBeforeCollision,
     /// 000: excess without a rule.
     ExcessDropped,
+    /// The force source without 1 − ω/2.
+    FullSource,
+    /// τ = ½ + 3μ: the dynamic viscosity taken for the kinematic one.
+    NoDensityInTau,
+    /// τ = 3ν, without the ½ of the discrete step.
+    NoHalfInTau,
+    /// BGK whatever operator is asked for.
+    AlwaysBgk,
+    /// ω⁺ used for the odd populations and ω⁻ for the even ones.
+    SwappedRates,
 }
 
 /// The plain solver with one mistake.
@@ -64,12 +83,11 @@ impl Backend for Mistaken {
             treatment: setup.yielding,
             collision: setup.collision,
         };
-        let wrong = Wrong { right, mistake: self.0 };
-        if setup.free_surface.is_some() || setup.grains.is_some() {
-            Ok(Box::new(SurfaceRun::start(&setup, wrong)?))
-        } else {
-            Ok(Box::new(PlainRun::start(&setup, wrong)?))
-        }
+        let physics = Wrong { right, mistake: self.0 };
+        // A wrong surface need not keep its mass: the claim that must catch it measures by how much.
+        let links = Arc::new(Links::new(&setup));
+        let surface = WrongSurface { mistake: self.0, links };
+        Ok(Box::new(Unguarded(PlainRun::start_with(&setup, physics, surface)?)))
     }
 }
 
@@ -115,10 +133,12 @@ impl Physics for Wrong {
     }
 
     fn constant_omega(&self) -> Option<f64> {
-        self.right.constant_omega()
+        let omega = self.right.constant_omega()?;
+        Some(if self.mistake == Mistake::NoHalfInTau { 1.0 / (1.0 / omega - 0.5) } else { omega })
     }
 
     fn omega<L: Lane>(&self, fluid: u8, rho: L, q: L, previous: L) -> L {
+        let rho = if self.mistake == Mistake::NoDensityInTau { L::one() } else { rho };
         self.right.omega(fluid, rho, q, previous)
     }
 
@@ -135,7 +155,17 @@ impl Physics for Wrong {
     }
 
     fn collide<L: Lane>(&self, h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q] {
-        self.right.collision.collide(h, m, omega)
+        match self.mistake {
+            Mistake::AlwaysBgk => Bgk.collide(h, m, omega),
+            Mistake::FullSource => {
+                let post = self.right.collide(h, m, omega);
+                let (even, odd) = (even_source(&m.u, &m.force), odd_source(&m.force));
+                let half = L::splat(0.5) * omega;
+                std::array::from_fn(|i| post[i] + half * (even[i] + odd[i]))
+            }
+            Mistake::SwappedRates => self.right.collide(h, m, self.odd_omega(omega)),
+            _ => self.right.collide(h, m, omega),
+        }
     }
 
     fn wall<L: Lane>(&self, out: L, i: usize, rho: L, u_wall: &[L; 3]) -> L {
@@ -146,6 +176,11 @@ impl Physics for Wrong {
         }
     }
 
+    fn wall_cubic(&self, i: usize, rho: f64, u_wall: &[f64; 3]) -> f64 {
+        // The misprinted term is all that a moving wall adds.
+        if self.mistake == Mistake::WallFactor { 0.0 } else { self.right.wall_cubic(i, rho, u_wall) }
+    }
+
     fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L {
         if self.mistake == Mistake::ApparentViscosityAtWall {
             // 1/(ρν) = 3ω/(ρ(1 − ω/2)).
@@ -154,47 +189,45 @@ impl Physics for Wrong {
             self.right.tangent_fluidity(fluid, rho, omega, q)
         }
     }
+}
 
-    fn wetted_share(
-        &self,
-        neighbour: Kind,
-        fill: f64,
-        neighbour_fill: f64,
-        masses: impl Fn() -> [f64; 2],
-    ) -> f64 {
-        match (neighbour, self.mistake) {
-            (Kind::Interface, Mistake::ExchangeOfMasses) => {
-                let [own, other] = masses();
-                0.5 * (own + other)
+/// The surface of the design with one equation overridden.
+#[derive(Clone)]
+struct WrongSurface {
+    mistake: Mistake,
+    links: Arc<Links>,
+}
+
+impl SurfacePhysics for WrongSurface {
+    fn gained(&self, cells: &Collided, link: &SurfaceLink) -> f64 {
+        let SurfaceLink { cell, i, from, direction } = *link;
+        let (arriving, leaving) = (cells.after[from][direction], cells.after[cell][opposite(i)]);
+        let between = cells.kinds[from] == Kind::Interface;
+        let share = match self.mistake {
+            // m of a cell before this step's exchange is its fill times its density.
+            Mistake::ExchangeOfMasses if between => {
+                let mass = |cell: usize| cells.fill[cell] * (1.0 + density_excess(&cells.after[cell]));
+                0.5 * (mass(cell) + mass(from))
             }
-            (Kind::Interface, Mistake::ExchangeOfDifferences) => 0.5 * (neighbour_fill - fill),
-            _ => self.right.wetted_share(neighbour, fill, neighbour_fill, masses),
-        }
+            Mistake::ExchangeOfDifferences if between => 0.5 * (cells.fill[from] - cells.fill[cell]),
+            Mistake::ExchangeBeforeCollision => {
+                let share = exchange::wetted_share(cells.kinds[from], cells.fill[cell], cells.fill[from]);
+                return link_mass(share, cells.before[from][direction], cells.before[cell][opposite(i)]);
+            }
+            _ => return Design.gained(cells, link),
+        };
+        link_mass(share, arriving, leaving)
     }
 
-    fn link_mass<L: Lane>(&self, share: L, arriving: L, leaving: L, before: impl Fn() -> [L; 2]) -> L {
-        if self.mistake == Mistake::ExchangeBeforeCollision {
-            let [arriving, leaving] = before();
-            share * (arriving - leaving)
-        } else {
-            self.right.link_mass(share, arriving, leaving, before)
-        }
+    fn gas_link(&self, after: &[[f64; Q]], cell: usize, out: usize, u: &[f64; 3]) -> f64 {
+        let behind = match self.mistake {
+            Mistake::ReconstructionAtNeighbour => self.links.neighbour_along(cell, out).unwrap_or(cell),
+            _ => cell,
+        };
+        Design.gas_link(after, behind, out, u)
     }
 
-    fn gas_link<L: Lane>(&self, leaving: L, i: usize, u: &[L; 3], behind: impl Fn() -> L) -> L {
-        let wrong = self.mistake == Mistake::ReconstructionAtNeighbour;
-        self.right.gas_link(if wrong { behind() } else { leaving }, i, u, &behind)
-    }
-
-    fn wants_before(&self) -> bool {
-        self.mistake == Mistake::ExchangeBeforeCollision
-    }
-
-    fn is_mutant(&self) -> bool {
-        true
-    }
-
-    fn excess(&self, e: f64) -> f64 {
-        if self.mistake == Mistake::ExcessDropped { 0.0 } else { e }
+    fn excess(&self, mass: f64, full: f64) -> f64 {
+        if self.mistake == Mistake::ExcessDropped { 0.0 } else { excess(mass, full) }
     }
 }

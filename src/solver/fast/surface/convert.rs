@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::InterfaceCell;
+use super::record::InterfaceCell;
 use crate::boundary::links::{Source, resolve};
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::{Cells, convert, fill_of, touch, verdict};
@@ -13,8 +13,9 @@ use crate::lattice::moments::{density_excess, moments};
 use crate::setup::YieldTreatment;
 use crate::solver::fast::element::Element;
 use crate::solver::fast::layout::NONE;
-use crate::solver::fast::run::{FastRun, each};
+use crate::solver::fast::run::FastRun;
 use crate::solver::physics::Physics;
+use crate::solver::pool::each;
 
 impl<P: Physics, E: Element> FastRun<P, E> {
     /// Marks, conversions, refill and excess of one step; then φ of every interface cell.
@@ -173,7 +174,7 @@ impl<P: Physics, E: Element> Cells for FastRun<P, E> {
     }
     fn wet(&mut self, cell: usize, populations: &[f64; Q]) {
         let (place, local) = self.layout.find(self.setup.coordinates(cell));
-        if self.layout.block_at(place) == super::super::layout::NONE {
+        if self.layout.block_at(place) == NONE {
             self.add_surface_block(place);
         }
         let f = *populations;
@@ -204,8 +205,5 @@ impl<P: Physics, E: Element> Cells for FastRun<P, E> {
         if let Some(record) = self.record_of_mut(cell) {
             record.mass += mass;
         }
-    }
-    fn excess(&self, mass: f64) -> f64 {
-        self.physics.excess(mass)
     }
 }

@@ -1,37 +1,20 @@
-//! Streaming and mass exchange of interface cells \[F1\] \[F2\], and what the links bring in \[F5\].
+//! Streaming and mass exchange of all interface cells \[F1\] \[F2\].
 
 use super::packed::Near;
-use super::{InterfaceCell, Surface};
-use crate::boundary::links::Source;
-use crate::free_surface::Kind;
-use crate::free_surface::conversion::touch;
+use super::streaming::Streaming;
 use crate::free_surface::ledger::VectorSum;
-use crate::lattice::moments::density_excess;
-use crate::lattice::{Q, opposite};
-use crate::solver::books::{CellEntries, Crossing, Entries};
-use crate::solver::fast::block::{Block, From, Link, numbers_around};
+use crate::solver::books::Entries;
+use crate::solver::fast::block::numbers_around;
 use crate::solver::fast::element::Element;
-use crate::solver::fast::kernel::{Task, index};
 use crate::solver::fast::layout::NONE;
-use crate::solver::fast::run::{FastRun, each};
-use crate::solver::fast::stage::{Around, after, density_at_wall, open_link, wall_link};
+use crate::solver::fast::run::FastRun;
 use crate::solver::physics::Physics;
+use crate::solver::pool::each;
 
 /// What a block brought in.
 struct Brought {
     entries: Entries,
     force: VectorSum,
-}
-
-/// A block while its interface cells stream.
-pub struct Streaming<'a, P, E> {
-    pub(super) task: &'a Task<'a, P, E>,
-    surface: &'a Surface,
-    rim: &'a [super::super::rim::Rim],
-    pub(super) block: &'a Block,
-    number: usize,
-    /// Block numbers around it.
-    around: [u32; 27],
 }
 
 impl<P: Physics, E: Element> FastRun<P, E> {
@@ -61,7 +44,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                     NONE => surface.nothing.as_slice(),
                     n => surface.fill[n as usize].as_slice(),
                 });
-                let near = Near { populations: Around::new(&task, number), fill };
+                let near = Near { populations: task.around(number), fill };
                 (self.passes.exchange)(self.chosen, &streaming, &near, list, &mut brought.entries);
             }
             streaming.book_liquid(returned, &mut brought.entries);
@@ -78,157 +61,4 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         surface.books.from_force.add_times(force, surface.counts[0]);
         surface.books.enter(&entries, &mut surface.loads);
     }
-}
-
-impl<P: Physics, E: Element> Streaming<'_, P, E> {
-    /// Populations, Δm and neighbours of an interface cell.
-    #[inline(never)]
-    pub(super) fn stream(&self, cell: &mut InterfaceCell, entries: &mut Entries) {
-        let local = usize::from(cell.local);
-        let physics = self.task.physics;
-        let own = after(self.task, self.number, local);
-        let rho = 1.0 + density_excess(&own);
-        // An interface cell's own φ; that of a liquid neighbour is not used.
-        let fill = self.surface.fill[self.number][local];
-        let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
-        let mut arrived = own;
-        let mut gained = [0.0; Q];
-        let mut touches = 0;
-        let mut booked = CellEntries::default();
-        for i in 1..Q {
-            let out = opposite(i);
-            let link = links.next_if(|link| usize::from(link.direction) == i);
-            let mut gas = false;
-            let source = match self.end(local, i, link) {
-                End::Wall { velocity, body, link } => {
-                    touches |= touch::WALL;
-                    let u = &self.task.velocities[velocity as usize];
-                    arrived[i] = wall_link(self.task, self.number, self.rim, link, rho, u);
-                    Source::Wall { velocity: *u, body }
-                }
-                End::Open(link) => {
-                    arrived[i] = open_link(self.task, self.number, self.rim, link);
-                    gained[i] = fill * (arrived[i] - own[out]);
-                    Source::Open
-                }
-                End::Cell { number, local, direction } => {
-                    let kind = match number {
-                        NONE => Kind::Gas,
-                        number => self.surface.kinds[number as usize][local],
-                    };
-                    gas = !kind.is_fluid();
-                    if kind == Kind::Solid {
-                        // Covered by a grain: what its surface returns has been put there, and booked.
-                        touches |= touch::WALL;
-                        let number = number as usize;
-                        arrived[i] = self.task.old[number].get()[index::<E>(local, direction)].to_f64();
-                        continue;
-                    }
-                    if gas {
-                        touches |= touch::GAS;
-                        arrived[i] = physics.gas_link(own[out], out, &cell.velocity, || own[out]);
-                    } else {
-                        if kind == Kind::Liquid {
-                            touches |= touch::LIQUID;
-                        }
-                        let number = number as usize;
-                        arrived[i] = self.task.old[number].get()[index::<E>(local, direction)].to_f64();
-                        let other = self.surface.fill[number][local];
-                        let share = physics.wetted_share(kind, fill, other, || [0.0; 2]);
-                        gained[i] = physics.link_mass(share, arrived[i], own[out], || [0.0; 2]);
-                    }
-                    Source::Cell { cell: 0, direction: direction as u8 }
-                }
-            };
-            let crossing = Crossing { i, leaving: own[out], arrived: arrived[i], share: fill, liquid: false };
-            booked.link(&crossing, &source, gas, entries);
-        }
-        booked.close(entries);
-        cell.f = arrived;
-        cell.rho = 1.0 + density_excess(&arrived);
-        cell.mass += density_excess(&gained);
-        cell.touches = touches;
-    }
-
-    /// Whether grains cover cells in the block or beside it.
-    #[inline]
-    pub(super) fn among_grains(&self) -> bool {
-        !self.surface.covered.is_empty()
-            && self.around.iter().any(|&n| n != NONE && self.surface.covered[n as usize] > 0)
-    }
-
-    /// The other end of the link that population `i` arrives through.
-    #[inline]
-    fn end<'l>(&self, local: usize, i: usize, link: Option<&'l Link>) -> End<'l> {
-        let Some(link) = link else {
-            let (entry, from) = self.task.layout.upstream(local, i);
-            return End::Cell { number: self.around[entry], local: from, direction: i };
-        };
-        match link.from {
-            From::Cell { cell, direction } => End::Cell {
-                number: self.task.layout.block_at(cell.block as usize),
-                local: cell.local as usize,
-                direction: usize::from(direction),
-            },
-            From::Wall { velocity, body } => End::Wall { velocity, body, link },
-            From::Open => End::Open(link),
-        }
-    }
-
-    /// Books the irregular links of liquid cells; `returned`: what comes back from walls and open faces, by
-    /// link.
-    fn book_liquid(&self, returned: &mut [f64], entries: &mut Entries) {
-        let mut links = self.block.links.as_slice();
-        let mut returned = returned;
-        while let Some(first) = links.first() {
-            let same = links.iter().take_while(|link| link.local == first.local).count();
-            let (cell, rest) = links.split_at(same);
-            let (back, later) = returned.split_at_mut(same);
-            (links, returned) = (rest, later);
-            let local = usize::from(first.local);
-            if self.surface.kinds[self.number][local] == Kind::Liquid {
-                self.book_cell(local, cell, back, entries);
-            }
-        }
-    }
-
-    fn book_cell(&self, local: usize, links: &[Link], returned: &mut [f64], entries: &mut Entries) {
-        let own = self.task.old[self.number].get();
-        let mut booked = CellEntries::default();
-        for (link, back) in links.iter().zip(returned) {
-            let i = usize::from(link.direction);
-            let (arrived, source) = match self.end(local, i, Some(link)) {
-                End::Wall { velocity, body, link } => {
-                    let u = &self.task.velocities[velocity as usize];
-                    let rho = density_at_wall(self.task, self.number, local, u);
-                    let arrived = wall_link(self.task, self.number, self.rim, link, rho, u);
-                    (arrived, Source::Wall { velocity: *u, body })
-                }
-                End::Open(link) => (open_link(self.task, self.number, self.rim, link), Source::Open),
-                // A liquid cell touches no gas.
-                End::Cell { direction, .. } if direction == i => continue,
-                End::Cell { number, local, direction } => {
-                    let arrived = self.task.old[number as usize].get()[index::<E>(local, direction)].to_f64();
-                    if self.surface.kinds[number as usize][local] == Kind::Solid {
-                        // Behind a mirror plane and covered by a grain: booked where its surface returned it.
-                        *back = arrived;
-                        continue;
-                    }
-                    (arrived, Source::Cell { cell: 0, direction: direction as u8 })
-                }
-            };
-            *back = arrived;
-            let leaving = own[index::<E>(local, opposite(i))].to_f64();
-            let crossing = Crossing { i, leaving, arrived, share: 1.0, liquid: true };
-            booked.link(&crossing, &source, false, entries);
-        }
-        booked.close(entries);
-    }
-}
-
-/// The other end of a link.
-enum End<'l> {
-    Cell { number: u32, local: usize, direction: usize },
-    Wall { velocity: u32, body: u8, link: &'l Link },
-    Open(&'l Link),
 }

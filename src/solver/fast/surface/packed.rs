@@ -1,20 +1,19 @@
 //! Streaming and mass exchange of interface cells side by side \[F1\] \[F2\]: the same as
 //! `Streaming::stream` for cells whose links are all the grid's.
 
-use super::InterfaceCell;
-use super::exchange::Streaming;
+use super::record::InterfaceCell;
+use super::streaming::Streaming;
 use crate::free_surface::conversion::touch;
-use crate::free_surface::exchange::share_with;
+use crate::free_surface::exchange::{gas_link, link_mass, share_with};
 use crate::lane::Lane;
 use crate::lattice::moments::density_excess;
 use crate::lattice::unroll::{directions, three};
 use crate::lattice::{C, Q, opposite};
 use crate::solver::books::Entries;
-use crate::solver::fast::element::Element;
-use crate::solver::fast::kernel::index;
+use crate::solver::fast::around::Around;
+use crate::solver::fast::element::{Element, MOST, index};
 use crate::solver::fast::registers::Registers;
 use crate::solver::fast::sources::{Sources, gather, gather_cells};
-use crate::solver::fast::stage::{Around, MOST};
 use crate::solver::physics::Physics;
 
 /// What the exchange reads around a block.
@@ -54,9 +53,8 @@ impl Columns {
 
     /// Populations, Δm and neighbours of the lanes of one part of a pack.
     #[inline(always)]
-    fn stream<R: Registers, P: Physics>(
+    fn stream<R: Registers>(
         &mut self,
-        physics: &P,
         near: &Near<R::Element>,
         sources: &Sources,
         local: usize,
@@ -86,9 +84,9 @@ impl Columns {
                 let dry = other.less(zero);
                 gas = <R::Pack as Lane>::select(dry, one, gas);
                 liquid = <R::Pack as Lane>::select(one.less(other), one, liquid);
-                let back = physics.gas_link(own[out], out, &u, || own[out]);
+                let back = gas_link(own[out], out, &u);
                 let arrived = <R::Pack as Lane>::select(dry, back, from[i]);
-                let mass = physics.link_mass(share_with(fill, other), from[i], own[out], || [zero; 2]);
+                let mass = link_mass(share_with(fill, other), from[i], own[out]);
                 gained[i] = <R::Pack as Lane>::select(dry, zero, mass);
                 // Arrives with c_i f_i, left with −c_i f_ī.
                 let brought = <R::Pack as Lane>::select(dry, arrived + own[out], zero);
@@ -138,7 +136,8 @@ impl Columns {
     }
 }
 
-/// Streams all interface cells of a block, with registers that compute in f64: those with irregular links one by one, the others side by side.
+/// Streams all interface cells of a block, with registers that compute in f64: those with irregular links one by
+/// one, the others side by side.
 #[inline(always)]
 pub fn stream_block<R: Registers, P: Physics>(
     streaming: &Streaming<P, R::Element>,
@@ -180,7 +179,7 @@ pub fn stream_block<R: Registers, P: Physics>(
         for part in (0..line).step_by(R::WIDTH) {
             if together >> part & (u16::MAX >> (16 - R::WIDTH)) != 0 {
                 let local = pack * line;
-                columns.stream::<R, P>(streaming.task.physics, near, &sources[pack], local, part);
+                columns.stream::<R>(near, &sources[pack], local, part);
             }
         }
         columns.hand_out(cells, alone, line, entries);

@@ -1,6 +1,8 @@
 //! Sums and fields of a run with a free surface.
 
-use super::Surface;
+use super::inertia::Inertia;
+use super::record::InterfaceCell;
+use super::state::Surface;
 use crate::fingerprint::Hasher;
 use crate::free_surface::Kind;
 use crate::free_surface::ledger::{Sum, VectorSum};
@@ -32,14 +34,14 @@ impl Surface {
     pub fn fill_of(&self, number: usize, local: usize, rho: f64) -> f64 {
         match self.kinds[number][local] {
             Kind::Liquid => 1.0,
-            _ => self.mass(number, local) / rho,
+            Kind::Interface | Kind::Gas | Kind::Solid => self.mass(number, local) / rho,
         }
     }
 
     fn mass(&self, number: usize, local: usize) -> f64 {
         match self.kinds[number][local] {
             Kind::Interface => self.record(number, local).map_or(0.0, |record| record.mass),
-            _ => 0.0,
+            Kind::Liquid | Kind::Gas | Kind::Solid => 0.0,
         }
     }
 
@@ -48,7 +50,7 @@ impl Surface {
     pub fn mass_of(&self, number: usize, local: usize, m: &Moments<f64>) -> (f64, f64) {
         match self.kinds[number][local] {
             Kind::Liquid => (m.d_rho, m.rho),
-            _ => (self.mass(number, local), self.mass(number, local)),
+            Kind::Interface | Kind::Gas | Kind::Solid => (self.mass(number, local), self.mass(number, local)),
         }
     }
 
@@ -72,9 +74,9 @@ impl Surface {
         let fill: usize = self.fill.iter().map(|fill| size_of_val(fill.as_slice())).sum();
         let lanes: usize = self.lanes.iter().map(|lanes| size_of_val(lanes.as_slice())).sum();
         let records: usize =
-            self.interface.iter().map(|list| list.capacity() * size_of::<super::InterfaceCell>()).sum();
+            self.interface.iter().map(|list| list.capacity() * size_of::<InterfaceCell>()).sum();
         let returned: usize = self.returned.iter().map(|links| size_of_val(links.as_slice())).sum();
-        let inertia = self.inertia.as_ref().map_or(0, super::inertia::Inertia::bytes);
+        let inertia = self.inertia.as_ref().map_or(0, Inertia::bytes);
         (kinds + fill + lanes + records + returned) as u64 + inertia
     }
 }
@@ -115,21 +117,5 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let surface = self.surface.as_ref()?;
         let (mass, momentum) = self.mass_and_momentum();
         Some(surface.books.ledger(mass, momentum, surface.parked.values().sum(), surface.counts))
-    }
-
-    pub(in crate::solver::fast) fn hash_rest(&self, hasher: &mut Hasher) {
-        for (cell, mass) in self.surface.iter().flat_map(|surface| &surface.parked) {
-            hasher.number(f64::from(*cell));
-            hasher.number(*mass);
-        }
-        for (_, number, local) in self.in_order() {
-            let inertia = self.surface.as_ref().and_then(|surface| surface.inertia.as_ref());
-            for a in inertia.map(|inertia| inertia.acceleration_of(number, local)).iter().flatten() {
-                hasher.number(*a);
-            }
-            if let Some(omega) = self.lag[number].get(local) {
-                hasher.number(*omega);
-            }
-        }
     }
 }

@@ -1,23 +1,20 @@
 //! How a run with a free surface begins.
 
-use super::inertia::Inertia;
-use super::{Lanes, Surface};
+use super::record::{InterfaceCell, Lanes};
+use super::state::Surface;
 use crate::boundary::links::{Source, resolve};
 use crate::coupling::Immersed;
 use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
-use crate::setup::{FlowPoint, FreeSurface, SurfaceForce};
-use crate::solver::books::Books;
-use crate::solver::fast::element::Element;
-use crate::solver::fast::kernel::index;
+use crate::setup::{FlowPoint, FreeSurface};
+use crate::solver::fast::block::put;
+use crate::solver::fast::element::{Element, index};
 use crate::solver::fast::run::FastRun;
-use crate::solver::fast::surface::InterfaceCell;
 use crate::solver::initial::{self, REST};
 use crate::solver::physics::Physics;
-use crate::solver::plain::starting_omega;
-use crate::solver::run::{Load, StartError};
+use crate::solver::run::StartError;
 
 impl<P: Physics, E: Element> FastRun<P, E> {
     /// Blocks, populations, masses and the ledger.
@@ -26,11 +23,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     /// The setup asks for what this backend does not have.
     pub(in crate::solver::fast) fn start_surface(&mut self) -> Result<(), StartError> {
         let unsupported = |feature| StartError::Unsupported { backend: "fast", feature };
-        if let Some(grains) = &self.setup.grains {
-            let immersed =
-                Immersed::new(&self.setup, grains).map_err(|error| StartError::Grains(Box::new(error)))?;
-            self.grains = Some(Box::new(immersed));
-        }
+        self.immerse_grains()?;
         let drawn = self.setup.free_surface.take();
         let with_gas = drawn.is_some();
         // Grains need the kinds of cells with or without gas.
@@ -64,23 +57,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             }
         }
         let loads = if setup.loads { setup.solid_motion.len() } else { 0 };
-        self.surface = Some(Surface {
-            kinds: Vec::new(),
-            fill: Vec::new(),
-            lanes: Vec::new(),
-            interface: Vec::new(),
-            parked: Default::default(),
-            books: Books::default(),
-            loads: vec![Load::default(); loads],
-            counts: [0; 2],
-            inertia: (rules.force == SurfaceForce::ByFillAndInertia).then(Inertia::default),
-            free: Vec::new(),
-            returned: Vec::new(),
-            nothing: vec![GAS; self.layout.block_cells()],
-            open: false,
-            covered: Vec::new(),
-            rules: rules.clone(),
-        });
+        self.surface = Some(Surface::new(rules.clone(), loads, self.layout.block_cells()));
         if with_gas {
             self.setup.free_surface = Some(rules);
         }
@@ -92,6 +69,15 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         }
         self.start_grains();
         self.open_books();
+        Ok(())
+    }
+
+    /// Puts the grains in, if there are any.
+    fn immerse_grains(&mut self) -> Result<(), StartError> {
+        let Some(grains) = &self.setup.grains else { return Ok(()) };
+        let immersed =
+            Immersed::new(&self.setup, grains).map_err(|error| StartError::Grains(Box::new(error)))?;
+        self.grains = Some(Box::new(immersed));
         Ok(())
     }
 
@@ -134,7 +120,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             let at = layout.cell(self.blocks[number].origin, local);
             let cell = setup.index(at);
             if let Some(omega) = self.lag[number].get_mut(local) {
-                *omega = starting_omega(setup, cell);
+                *omega = initial::starting_omega(setup, cell);
             }
             if !kinds[cell].is_fluid() {
                 continue;
@@ -168,14 +154,6 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             }
         }
         surface.list_lanes(number, E::PER_LINE);
-    }
-}
-
-/// Puts a value at a number, which is at most one beyond the end.
-pub(in crate::solver::fast) fn put<T>(list: &mut Vec<T>, number: usize, value: T) {
-    match list.get_mut(number) {
-        Some(place) => *place = value,
-        None => list.push(value),
     }
 }
 

@@ -1,54 +1,54 @@
-//! Conversions of one step \[F4\] \[F6\]: the arrays of this backend for [`crate::free_surface::conversion`].
+//! Conversions of one step \[F4\] \[F6\].
 
 use std::collections::BTreeMap;
 
-use super::SurfaceRun;
-use crate::boundary::links::Source;
+use super::SurfacePhysics;
+use super::cells::Wet;
 use crate::free_surface::Kind;
-use crate::free_surface::conversion::{Cells, convert, fill_of, verdict};
+use crate::free_surface::conversion::{convert, fill_of, verdict};
 use crate::free_surface::marks::Mark;
-use crate::lattice::Q;
-use crate::lattice::moments::{density_excess, moments};
-use crate::setup::{SurfaceForce, YieldTreatment};
+use crate::lattice::moments::density_excess;
 use crate::solver::physics::Physics;
-use crate::solver::plain::cell::Cell;
+use crate::solver::plain::run::PlainRun;
 
-impl<P: Physics> SurfaceRun<P> {
+impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
     /// Marks, conversions, refill and excess of one step; then φ of every interface cell.
-    pub(super) fn convert(&mut self, force: &[f64; 3]) {
+    pub(in crate::solver::plain) fn convert(&mut self, force: &[f64; 3]) {
+        if let Some((mut cells, _)) = self.wet() {
+            cells.convert_marked(force);
+            cells.update_fill();
+            cells.surface.remember_velocity();
+        }
+    }
+}
+
+impl<P: Physics, S: SurfacePhysics> Wet<'_, P, S> {
+    fn convert_marked(&mut self, force: &[f64; 3]) {
         let marks = self.marks();
-        if !marks.is_empty() || !self.parked.is_empty() {
-            let rules = self.surface.clone();
-            let mut parked = std::mem::take(&mut self.parked);
-            let step = self.step;
-            let turnover = convert(self, &rules, &marks, &mut parked, (step, force));
-            self.parked = parked;
-            self.books.from_conversions.merge(&turnover.momentum);
-            self.books.conversions += turnover.conversions;
-            self.books.outflow.add(turnover.outflow);
-            if turnover.conversions > 0 {
-                self.list_special();
-            }
+        if marks.is_empty() && self.surface.parked.is_empty() {
+            return;
         }
-        for &cell in &self.special {
-            let cell = cell as usize;
-            if self.kinds[cell] == Kind::Interface {
-                self.fill[cell] = fill_of(self.mass[cell], 1.0 + density_excess(&self.f[cell]));
-            }
-        }
-        if !self.acceleration.is_empty() {
-            self.velocity_before.clone_from(&self.velocity);
+        let rules = self.surface.rules.clone();
+        let mut parked = std::mem::take(&mut self.surface.parked);
+        let step = self.step;
+        let turnover = convert(self, &rules, &marks, &mut parked, (step, force));
+        self.surface.parked = parked;
+        self.surface.books.from_conversions.merge(&turnover.momentum);
+        self.surface.books.conversions += turnover.conversions;
+        self.surface.books.outflow.add(turnover.outflow);
+        if turnover.conversions > 0 {
+            self.surface.list_special(self.links);
         }
     }
 
     /// Interface cells that fill or empty, before reverting.
     fn marks(&self) -> BTreeMap<u32, Mark> {
         let mut marks = BTreeMap::new();
-        for &at in &self.special {
+        for &at in &self.surface.special {
             let cell = at as usize;
-            if self.kinds[cell] == Kind::Interface {
+            if self.surface.kinds[cell] == Kind::Interface {
                 let rho = 1.0 + density_excess(&self.f[cell]);
-                let verdict = verdict(self, &self.surface, cell, rho);
+                let verdict = verdict(self, &self.surface.rules, cell, rho);
                 if verdict != Mark::Stay {
                     marks.insert(at, verdict);
                 }
@@ -56,57 +56,14 @@ impl<P: Physics> SurfaceRun<P> {
         }
         marks
     }
-}
 
-impl<P: Physics> Cells for SurfaceRun<P> {
-    fn source(&self, cell: usize, i: usize) -> Source {
-        self.links.source(cell, i)
-    }
-    fn kind(&self, cell: usize) -> Kind {
-        self.kinds[cell]
-    }
-    fn fill(&self, cell: usize) -> f64 {
-        self.fill[cell]
-    }
-    fn mass(&self, cell: usize) -> f64 {
-        self.mass[cell]
-    }
-    fn touches(&self, cell: usize) -> u8 {
-        self.touches[cell]
-    }
-    fn populations(&self, cell: usize) -> Cell {
-        self.f[cell]
-    }
-    fn fill_up(&mut self, cell: usize) {
-        self.kinds[cell] = Kind::Liquid;
-        (self.mass[cell], self.fill[cell]) = (0.0, 1.0);
-    }
-    fn empty(&mut self, cell: usize) {
-        self.kinds[cell] = Kind::Gas;
-        self.f[cell] = [0.0; Q];
-        (self.mass[cell], self.fill[cell]) = (0.0, 0.0);
-        self.velocity[cell] = [0.0; 3];
-    }
-    fn expose(&mut self, cell: usize, mass: f64) {
-        self.kinds[cell] = Kind::Interface;
-        self.mass[cell] = mass;
-    }
-    fn wet(&mut self, cell: usize, populations: &Cell) {
-        self.kinds[cell] = Kind::Interface;
-        self.f[cell] = *populations;
-        self.mass[cell] = 0.0;
-        self.velocity[cell] = moments(populations, &[0.0; 3]).u;
-        if let YieldTreatment::LaggedClamped { tau_max, .. } = self.setup.yielding {
-            self.previous_omega[cell] = 1.0 / tau_max;
+    fn update_fill(&mut self) {
+        let surface = &mut *self.surface;
+        for &cell in &surface.special {
+            let cell = cell as usize;
+            if surface.kinds[cell] == Kind::Interface {
+                surface.fill[cell] = fill_of(surface.mass[cell], 1.0 + density_excess(&self.f[cell]));
+            }
         }
-        if self.surface.force == SurfaceForce::ByFillAndInertia {
-            self.acceleration[cell] = [0.0; 3];
-        }
-    }
-    fn add_mass(&mut self, cell: usize, mass: f64) {
-        self.mass[cell] += mass;
-    }
-    fn excess(&self, mass: f64) -> f64 {
-        self.physics.excess(mass)
     }
 }

@@ -2,8 +2,9 @@
 
 use super::equilibrium::{Formula, RIGHT, largest_residual};
 use super::shear_rate::{couette, couette_sample};
-use super::wrong::{Mistake, Wrong};
+
 use crate::claim::{Sample, VerifyError};
+use crate::claims::mutants_physics::{Mistake, Mistaken};
 use crate::mutant::{Mutant, Subject};
 use lahar::lattice::equilibrium::equilibrium;
 use lahar::lattice::moments::{magnitude, moments, second};
@@ -72,7 +73,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         description: "Velocity Σ c f/ρ without F/2 in equilibrium and force term.",
         caught_by: "conservation-collision",
         rung: None,
-        subject: Subject::Backend(|| Box::new(Wrong(Mistake::NoHalfForceInVelocity))),
+        subject: Subject::Backend(|| Box::new(Mistaken(Mistake::NoForceInVelocity))),
     },
     Mutant {
         id: "force-source-without-relaxation",
@@ -80,7 +81,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         description: "Force source added in full, without 1 − 1/(2τ), next to a velocity that holds F/2.",
         caught_by: "conservation-collision",
         rung: None,
-        subject: Subject::Backend(|| Box::new(Wrong(Mistake::FullSource))),
+        subject: Subject::Backend(|| Box::new(Mistaken(Mistake::FullSource))),
     },
     Mutant {
         id: "shear-rate-without-force-correction",
@@ -88,7 +89,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         description: "Non-equilibrium tensor without ½(uF + Fu).",
         caught_by: "acceleration-without-shear",
         rung: None,
-        subject: Subject::Backend(|| Box::new(Wrong(Mistake::NoForceInStress))),
+        subject: Subject::Backend(|| Box::new(Mistaken(Mistake::NoForceInStress))),
     },
     Mutant {
         id: "shear-rate-of-full-populations",

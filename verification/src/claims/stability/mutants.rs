@@ -5,9 +5,9 @@ use lahar::collision::{Collision, CollisionChoice, OddRate, Trt};
 use lahar::lane::Lane;
 use lahar::lattice::Q;
 use lahar::lattice::moments::Moments;
-use lahar::rheology::{Law, Prepared};
+use lahar::rheology::Law;
 use lahar::setup::Setup;
-use lahar::solver::physics::{Physics, Standard};
+use lahar::solver::physics::Standard;
 use lahar::solver::plain::{Plain, PlainRun};
 use lahar::solver::run::{Backend, Run, StartError};
 
@@ -23,6 +23,9 @@ impl Collision for Swapped {
             odd.odd_omega(omega)
         }
         Trt { odd: self.0 }.collide(h, m, exchanged(self.0, omega))
+    }
+    fn has_cubic_equilibrium(&self) -> bool {
+        Trt { odd: self.0 }.has_cubic_equilibrium()
     }
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
         Trt { odd: self.0 }.odd_departure(h, m)
@@ -41,24 +44,16 @@ impl Backend for SwappedBackend {
     }
     fn start(&self, setup: &Setup) -> Result<Box<dyn Run>, StartError> {
         match setup.collision {
-            CollisionChoice::Trt(odd) => boxed(
-                setup,
-                Standard {
-                    laws: setup.fluids.iter().map(Law::prepare).collect(),
-                    treatment: setup.yielding,
-                    collision: Swapped(odd),
-                },
-            ),
-            _ => Plain.start(setup),
+            CollisionChoice::Trt(odd) => {
+                let laws = setup.fluids.iter().map(Law::prepare).collect();
+                let physics = Standard { laws, treatment: setup.yielding, collision: Swapped(odd) };
+                Ok(Box::new(PlainRun::start(setup, physics)?))
+            }
+            CollisionChoice::Bgk | CollisionChoice::CentralMoment(_) | CollisionChoice::Regularised => {
+                Plain.start(setup)
+            }
         }
     }
-}
-
-fn boxed(setup: &Setup, physics: Standard<Prepared, Swapped>) -> Result<Box<dyn Run>, StartError> {
-    fn any<P: Physics>(setup: &Setup, physics: P) -> Result<Box<dyn Run>, StartError> {
-        Ok(Box::new(PlainRun::start(setup, physics)?))
-    }
-    any(setup, physics)
 }
 
 /// Exchanged relaxation rates.

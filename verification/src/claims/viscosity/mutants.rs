@@ -1,6 +1,6 @@
 //! Wrong viscosities.
 
-use super::super::moments::wrong::{Mistake, Wrong};
+use crate::claims::mutants_physics::{Mistake, Mistaken};
 use crate::mutant::{Mutant, Subject};
 
 pub(super) const MUTANTS: &[Mutant] = &[
@@ -10,7 +10,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         description: "τ = ½ + 3μ: viscosity and yield stress are not divided by the density.",
         caught_by: "shear-wave-dense-fluid",
         rung: Some(1.1),
-        subject: Subject::Backend(|| Box::new(Wrong(Mistake::NoDensityInTau))),
+        subject: Subject::Backend(|| Box::new(Mistaken(Mistake::NoDensityInTau))),
     },
     Mutant {
         id: "viscosity-without-the-half-step",
@@ -18,7 +18,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         description: "τ = 3ν: the ½ that the discrete time step takes from the viscosity is forgotten.",
         caught_by: "sound-wave-damping",
         rung: Some(1.8),
-        subject: Subject::Backend(|| Box::new(Wrong(Mistake::NoHalfInTau))),
+        subject: Subject::Backend(|| Box::new(Mistaken(Mistake::NoHalfInTau))),
     },
     Mutant {
         id: "rates-swapped",
@@ -26,7 +26,7 @@ pub(super) const MUTANTS: &[Mutant] = &[
         description: "The even populations relax with ω⁻.",
         caught_by: "shear-wave-axis-trt",
         rung: Some(16.0),
-        subject: Subject::Backend(|| Box::new(Wrong(Mistake::SwappedRates))),
+        subject: Subject::Backend(|| Box::new(Mistaken(Mistake::SwappedRates))),
     },
     Mutant {
         id: "second-order-collision",
@@ -34,6 +34,6 @@ pub(super) const MUTANTS: &[Mutant] = &[
         description: "BGK, whose third moments lack ρ u u u, in place of the central-moment operator.",
         caught_by: "central-moment-galilean-order",
         rung: None,
-        subject: Subject::Backend(|| Box::new(Wrong(Mistake::AlwaysBgk))),
+        subject: Subject::Backend(|| Box::new(Mistaken(Mistake::AlwaysBgk))),
     },
 ];

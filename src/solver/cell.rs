@@ -1,6 +1,6 @@
 //! What one cell does in one step. Everything here reads the previous array only.
 
-use crate::boundary::links::{BoundaryCell, CellKind, Links, Source};
+use crate::boundary::links::Links;
 use crate::boundary::wall_slip::{
     limited_curvature, link_correction, local_curvature, pressure_slope, stress_source, tangential,
 };
@@ -137,25 +137,6 @@ pub fn add_stress_source<L: Lane, P: Physics>(
     add_third(post, &stress_source(residual, &deviator(&state.m.q), wanted, odd_omega));
 }
 
-/// Streaming into one cell: f_i(x, t+1) = f_i*(x − c_i, t), or what the boundary sends back.
-#[inline(always)]
-pub fn gather<P: Physics>(
-    physics: &P,
-    post: &[Cell],
-    links: &Links,
-    corrections: &[Cell],
-    cell: usize,
-    at: [usize; 3],
-) -> Cell {
-    match links.kind(cell) {
-        CellKind::Solid => [0.0; Q],
-        CellKind::Bulk => std::array::from_fn(|i| post[links.upstream(at, i)][i]),
-        CellKind::Boundary(slot) => {
-            gather_boundary(physics, post, &links.boundary()[slot], corrections.get(slot))
-        }
-    }
-}
-
 /// What a wall sends back in direction `i` \[B1\] \[B3\]; `own`: post-collision populations of the cell.
 #[inline(always)]
 pub fn wall_link<P: Physics>(
@@ -170,23 +151,4 @@ pub fn wall_link<P: Physics>(
     debug_assert_eq!(C[out][0], -C[i][0]);
     let leaving = own[out] - correction.map_or(0.0, |c| c[out]);
     physics.wall(leaving, out, rho, velocity)
-}
-
-/// Streaming into a cell that touches a wall, a solid or a mirror plane \[B1\]–\[B3\].
-#[inline(never)]
-fn gather_boundary<P: Physics>(
-    physics: &P,
-    post: &[Cell],
-    record: &BoundaryCell,
-    correction: Option<&Cell>,
-) -> Cell {
-    let own = &post[record.cell as usize];
-    let rho = 1.0 + density_excess(own);
-    std::array::from_fn(|i| match record.sources[i] {
-        Source::Cell { cell, direction } if i > 0 => post[cell as usize][usize::from(direction)],
-        Source::Cell { .. } => own[0],
-        Source::Wall { velocity, .. } => wall_link(physics, own, correction, i, rho, &velocity),
-        // `check` refuses open faces without a free surface.
-        Source::Open => own[opposite(i)],
-    })
 }

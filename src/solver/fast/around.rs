@@ -1,0 +1,40 @@
+//! The populations around a block.
+
+use super::block::{Block, numbers_around};
+use super::element::{Aligned, Element};
+use super::layout::{Layout, NONE};
+use super::stores;
+
+/// The populations around a block: 27 slices, the block's own where there is none.
+pub struct Around<'a, E> {
+    /// As [`Layout::around`].
+    pub slices: [&'a [E]; 27],
+}
+
+impl<'a, E: Element> Around<'a, E> {
+    /// Around a block.
+    pub fn new(old: &'a [Aligned<E>], layout: &Layout, blocks: &[Block], number: usize) -> Self {
+        let own = old[number].get();
+        // What the unchecked loads of `sources::gather` rely on.
+        assert_eq!(own.len(), layout.block_len());
+        let numbers = numbers_around(layout, blocks[number].place);
+        let slices = numbers.map(|n| match n {
+            NONE => own,
+            n => Some(old[n as usize].get()).filter(|other| other.len() == own.len()).unwrap_or(own),
+        });
+        Self { slices }
+    }
+
+    /// Around the block after this one, if there is one that holds anything.
+    #[inline]
+    pub fn next(old: &'a [Aligned<E>], layout: &Layout, blocks: &[Block], number: usize) -> Option<Self> {
+        let next = old.get(number + 1)?;
+        (next.get().len() == old[number].get().len()).then(|| Self::new(old, layout, blocks, number + 1))
+    }
+
+    /// The populations of one of the 27.
+    #[inline(always)]
+    pub fn entry(&self, at: usize) -> &'a [E] {
+        stores::entry(&self.slices, at)
+    }
+}

@@ -1,0 +1,61 @@
+//! What arrives along irregular links: from walls \[B1\] \[B3\] and open faces.
+
+use super::block::Link;
+use super::element::{Element, index};
+use super::rim::Rim;
+use super::task::Task;
+use crate::free_surface::exchange::gas_link;
+use crate::lattice::equilibrium::dot;
+use crate::lattice::moments::density_excess;
+use crate::lattice::{Q, opposite};
+use crate::solver::physics::Physics;
+
+/// Populations of a cell after the last collision.
+#[inline]
+pub fn after<P, E: Element>(task: &Task<P, E>, number: usize, local: usize) -> [f64; Q] {
+    let own = task.old[number].get();
+    std::array::from_fn(|i| own[index::<E>(local, i)].to_f64())
+}
+
+/// ρ of a cell after the last collision, for [`wall_link`]; 1 where the wall rests and ρ is multiplied by zero.
+#[inline]
+pub fn density_at_wall<P, E: Element>(
+    task: &Task<P, E>,
+    number: usize,
+    local: usize,
+    velocity: &[f64; 3],
+) -> f64 {
+    if *velocity == [0.0; 3] { 1.0 } else { 1.0 + density_excess(&after(task, number, local)) }
+}
+
+/// What a wall sends back along a link \[B1\] \[B3\], as it is stored.
+#[inline]
+pub fn wall_link<P: Physics, E: Element>(
+    task: &Task<P, E>,
+    number: usize,
+    rim: &[Rim],
+    link: &Link,
+    rho: f64,
+    velocity: &[f64; 3],
+) -> f64 {
+    let out = opposite(usize::from(link.direction));
+    let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
+    let correction = rim.get(usize::from(link.rim)).map_or(0.0, |kept| kept.correction[out]);
+    stored::<E>(task.physics.wall(leaving - correction, out, rho, velocity))
+}
+
+/// What is left of a number when it is stored: the ledger books what the cell gets.
+#[inline(always)]
+fn stored<E: Element>(x: f64) -> f64 {
+    E::from_f64(x).to_f64()
+}
+
+/// What an open face sends back, as it is stored: as gas where fluid leaves, as a wall at rest where it would
+/// come in.
+#[inline]
+pub fn open_link<P: Physics, E: Element>(task: &Task<P, E>, number: usize, rim: &[Rim], link: &Link) -> f64 {
+    let out = opposite(usize::from(link.direction));
+    let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
+    let u = rim.get(usize::from(link.rim)).map_or([0.0; 3], |kept| kept.velocity);
+    if dot(out, &u) > 0.0 { stored::<E>(gas_link(leaving, out, &u)) } else { leaving }
+}

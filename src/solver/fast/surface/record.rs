@@ -1,0 +1,58 @@
+//! What is kept of interface cells, and what passes read of it.
+
+use crate::free_surface::force::interface_force;
+use crate::lattice::Q;
+use crate::setup::SurfaceForce;
+
+/// A cell whose populations are kept: interface, or liquid since the last step.
+#[derive(Clone, Debug)]
+pub struct InterfaceCell {
+    /// Place in the block.
+    pub local: u16,
+    /// What it touched while streaming, bits of [`crate::free_surface::conversion::touch`].
+    pub touches: u8,
+    /// Populations before the next collision.
+    pub f: [f64; Q],
+    /// Their density.
+    pub rho: f64,
+    /// u of the last collision.
+    pub velocity: [f64; 3],
+    /// m.
+    pub mass: f64,
+    /// Mean smoothed acceleration of the liquid neighbours; zero unless the surface force has inertia.
+    pub acceleration: [f64; 3],
+}
+
+/// Lanes of a pack, a bit each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Lanes {
+    /// Liquid or interface.
+    pub fluid: u16,
+    /// Interface.
+    pub interface: u16,
+    /// With a record: interface, or liquid since the last step.
+    pub kept: u16,
+}
+
+/// What the passes read of the surface.
+#[derive(Clone, Copy)]
+pub struct SurfaceView<'a> {
+    /// By block and pack.
+    pub lanes: &'a [Vec<Lanes>],
+    /// φ of interface cells, by block and cell.
+    pub fill: &'a [Vec<f64>],
+    /// What walls and open faces send back to liquid cells, by block and irregular link.
+    pub returned: &'a [Vec<f64>],
+    /// How the body force acts in interface cells.
+    pub rule: SurfaceForce,
+}
+
+impl SurfaceView<'_> {
+    /// Body force of an interface cell \[F3\].
+    #[inline]
+    #[must_use]
+    pub fn force_of(&self, number: usize, cell: &InterfaceCell, force: &[f64; 3]) -> [f64; 3] {
+        let fill = self.fill[number][usize::from(cell.local)];
+        interface_force(self.rule, force, fill, &cell.acceleration)
+    }
+}

@@ -1,0 +1,89 @@
+//! Wall corrections of a block \[B3\].
+
+use super::block::{Block, Place, RimCell};
+use super::element::MOST;
+use super::instructions::{self, Chosen};
+use super::layout::NONE;
+use super::rim::{Alike, Columns, Given, Rim, WallTask};
+use crate::boundary::wall_slip::pressure_slope;
+use crate::lattice::moments::density_excess;
+use crate::solver::physics::Physics;
+
+/// Cells that are corrected together: as many as the widest register holds.
+const GROUP: usize = 8;
+
+/// Corrections of the rim cells of a block: neighbours along the rim with the same walls side by side.
+/// `force(local)`: body force of a fluid cell, `None` if the cell holds no fluid; `is_fluid(place)`: whether a
+/// neighbour does.
+pub fn correct<P: Physics>(
+    chosen: Chosen,
+    task: &WallTask<P>,
+    block: &Block,
+    rim: &mut [Rim],
+    force: &impl Fn(usize) -> Option<[f64; 3]>,
+    is_fluid: &impl Fn(Place) -> bool,
+) {
+    let mut columns = Columns::new();
+    let mut group = [0; MOST];
+    let mut at = 0;
+    while at < rim.len() {
+        let mut count = 0;
+        while count < GROUP && at < rim.len() {
+            let cell = &block.rim[at];
+            if count > 0 && !alike(block, &block.rim[group[0]], cell) {
+                break;
+            }
+            if cell.walls != 0
+                && let Some(given) = given(task, cell, &rim[at], force, is_fluid)
+            {
+                columns.put(count, &rim[at], &given);
+                group[count] = at;
+                count += 1;
+            }
+            at += 1;
+        }
+        if count > 0 {
+            let cell = &block.rim[group[0]];
+            let alike =
+                Alike { count, walls: cell.walls, normal: &cell.normal, fluid: fluid_of(block, cell) };
+            instructions::walls(chosen, task, &mut columns, &alike);
+            for (lane, &at) in group[..count].iter().enumerate() {
+                columns.take(lane, &mut rim[at]);
+            }
+        }
+    }
+}
+
+/// Whether two cells have the same walls and fluid.
+fn alike(block: &Block, a: &RimCell, b: &RimCell) -> bool {
+    a.walls == b.walls && a.normal == b.normal && fluid_of(block, a) == fluid_of(block, b)
+}
+
+fn fluid_of(block: &Block, cell: &RimCell) -> u8 {
+    block.fluid.get(usize::from(cell.local)).copied().unwrap_or(0)
+}
+
+/// Force and residual force of a cell; `None` where it holds no fluid.
+#[inline]
+fn given<P>(
+    task: &WallTask<P>,
+    cell: &RimCell,
+    kept: &Rim,
+    force: &impl Fn(usize) -> Option<[f64; 3]>,
+    is_fluid: &impl Fn(Place) -> bool,
+) -> Option<Given> {
+    let force = force(usize::from(cell.local))?;
+    let density = |place: Option<Place>| {
+        let place = place.filter(|&place| is_fluid(place))?;
+        match task.layout.block_at(place.block as usize) {
+            NONE => None,
+            number => task.density[number as usize].get(place.local as usize).copied(),
+        }
+    };
+    let own = density_excess(&kept.f);
+    let mut residual = force;
+    for (f, sides) in residual.iter_mut().zip(&cell.neighbours) {
+        *f -= pressure_slope(density(sides[0]), own, density(sides[1]));
+    }
+    Some(Given { force, residual })
+}

@@ -1,0 +1,62 @@
+//! The equations of the surface that need more than one cell, over the arrays of a run.
+
+use crate::free_surface::{Kind, conversion::excess, exchange};
+use crate::lattice::opposite;
+use crate::solver::cell::Cell;
+
+/// The cells of a run between collision and streaming.
+#[derive(Clone, Copy)]
+pub struct Collided<'a> {
+    /// Populations before the collision, f − w.
+    pub before: &'a [Cell],
+    /// Populations after it.
+    pub after: &'a [Cell],
+    /// Kinds.
+    pub kinds: &'a [Kind],
+    /// φ of every cell.
+    pub fill: &'a [f64],
+}
+
+/// A link between two cells.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceLink {
+    /// The interface cell at which population `i` arrives.
+    pub cell: usize,
+    /// Arriving direction.
+    pub i: usize,
+    /// The cell it comes from.
+    pub from: usize,
+    /// Its direction there; another than `i` at a mirror plane.
+    pub direction: usize,
+}
+
+/// The physics of the surface, given the arrays they are about: an implementation may read other cells or another
+/// time level than the design. What is not overridden is right.
+pub trait SurfacePhysics: Clone + Send + Sync + 'static {
+    /// Δm that an interface cell gains over a link to another fluid cell \[F1\].
+    #[inline(always)]
+    fn gained(&self, cells: &Collided, link: &SurfaceLink) -> f64 {
+        let SurfaceLink { cell, i, from, direction } = *link;
+        let share = exchange::wetted_share(cells.kinds[from], cells.fill[cell], cells.fill[from]);
+        exchange::link_mass(share, cells.after[from][direction], cells.after[cell][opposite(i)])
+    }
+
+    /// Population that the gas sends back to `cell` along −c_out \[F2\]; `after`: populations after collision,
+    /// `u`: velocity of the cell.
+    #[inline(always)]
+    fn gas_link(&self, after: &[Cell], cell: usize, out: usize, u: &[f64; 3]) -> f64 {
+        exchange::gas_link(after[cell][out], out, u)
+    }
+
+    /// Mass that a conversion leaves over \[F4\], see [`excess()`](excess::excess).
+    #[inline(always)]
+    fn excess(&self, mass: f64, full: f64) -> f64 {
+        excess::excess(mass, full)
+    }
+}
+
+/// The surface of the design.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Design;
+
+impl SurfacePhysics for Design {}
