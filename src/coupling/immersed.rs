@@ -7,8 +7,7 @@ use super::gaps::Gaps;
 use super::host::Host;
 use super::link::{Ball, Box3};
 use super::report::CouplingBooks;
-use crate::dem::bodies::SPHERE;
-use crate::dem::{Dem, DemError, V3};
+use crate::dem::{Dem, DemError, Shape, V3};
 use crate::setup::Setup;
 use crate::setup::suspension::Suspension;
 use std::sync::OnceLock;
@@ -338,7 +337,7 @@ impl Immersed {
         let (bodies, units) = (self.dem.bodies(), &self.config.units);
         let scale = self.mass_scale() / (units.dx_m * units.dx_m);
         let principal = bodies.inertia[grain] * scale;
-        if bodies.shape[grain] == SPHERE {
+        if bodies.shape[grain] == Shape::Sphere {
             return std::array::from_fn(|a| std::array::from_fn(|b| if a == b { principal.x } else { 0.0 }));
         }
         let turn = bodies.orientation[grain].to_rotation_matrix();
