@@ -8,7 +8,6 @@ use crate::dem::keep_marked;
 use crate::free_surface::Kind;
 use crate::lattice::moments::{density_excess, momentum};
 use crate::lattice::{Q, W};
-use crate::setup::suspension::Mutant;
 use std::collections::BTreeMap;
 
 impl Immersed {
@@ -30,9 +29,8 @@ impl Immersed {
             }
             host.cover(cell);
             self.debt[grain as usize] += mass;
-            if self.config.mutant != Mutant::CoveredMassDropped {
-                host.book(-mass, &taken.map(|p| -p));
-            }
+            let (gained, momentum) = self.config.equations.covering(mass, taken);
+            host.book(gained, &momentum);
             self.books.cover(mass, &taken);
         }
         if changes.freed.is_empty() {

@@ -5,6 +5,7 @@ use super::link::{Ball, Blocked, Box3, Link};
 use crate::boundary::links::Source;
 use crate::lattice::{Q, opposite};
 use crate::setup::Setup;
+use crate::vector::norm_squared;
 use rayon::prelude::*;
 
 /// No grain.
@@ -227,10 +228,8 @@ impl Coverage {
             if owner == NOBODY || owner == from || found.is_some_and(|f| f <= owner) {
                 continue;
             }
-            let holds = |ball: &Ball| {
-                let d = shape.apart(&centre, &ball.centre);
-                d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < ball.radius * ball.radius
-            };
+            let holds =
+                |ball: &Ball| norm_squared(shape.apart(&centre, &ball.centre)) < ball.radius * ball.radius;
             if balls(owner as usize).iter().any(holds) {
                 found = Some(owner);
             }
@@ -246,9 +245,8 @@ impl Coverage {
         let deep = |cell: usize| {
             let centre = shape.centre(cell);
             balls.iter().any(|ball| {
-                let d = shape.apart(&centre, &ball.centre);
                 let room = ball.radius - 1.5;
-                room > 0.0 && d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < room * room
+                room > 0.0 && norm_squared(shape.apart(&centre, &ball.centre)) < room * room
             })
         };
         for &cell in &self.covers[grain].cells {

@@ -10,6 +10,7 @@ use super::report::CouplingBooks;
 use crate::dem::{Dem, DemError, Shape, V3};
 use crate::setup::Setup;
 use crate::setup::suspension::Suspension;
+use crate::vector::norm;
 use std::sync::OnceLock;
 
 /// Force and torque on one grain in the last step, lattice units: (F, T).
@@ -147,11 +148,6 @@ impl Immersed {
         &self.dem
     }
 
-    /// The same, to be told new motions: driven grains, tests.
-    pub fn dem_mut(&mut self) -> &mut Dem {
-        &mut self.dem
-    }
-
     /// What was asked for.
     #[must_use]
     pub fn config(&self) -> &Suspension {
@@ -197,12 +193,6 @@ impl Immersed {
         self.failure.as_ref()
     }
 
-    /// How often the friction of a narrow gap was limited to what the grains' time step allows, so far.
-    #[must_use]
-    pub fn limited_gaps(&self) -> u64 {
-        self.gaps.as_ref().map_or(0, Gaps::limited)
-    }
-
     /// Mean force of lubrication on a wall of the grains in the last step, N.
     #[must_use]
     pub fn lubrication_on_wall(&self, wall: usize) -> V3 {
@@ -231,10 +221,9 @@ impl Immersed {
         let this = &*self;
         let balls = |grain: usize| this.balls(grain);
         let moved = |grain: usize, seen: &[L3]| {
-            this.members(grain).zip(seen).fold(0.0, |far: f64, (ball, seen)| {
-                let d = this.shape.apart(&ball.centre, seen);
-                far.max((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt())
-            })
+            this.members(grain)
+                .zip(seen)
+                .fold(0.0, |far: f64, (ball, seen)| far.max(norm(this.shape.apart(&ball.centre, seen))))
         };
         let changes = on_pool(&self.alone, pool, || coverage.update(setup, &this.shape, &balls, &moved));
         self.coverage = coverage;

@@ -12,7 +12,7 @@
 //! | C2 | force and torque by momentum exchange | `exchange.rs`, `held.rs` |
 //! | C3 | covering, uncovering, refill, ledger | `cover.rs`, `refill.rs` |
 //! | C4 | sub-cycling | `subcycle.rs` |
-//! | C5 | lubrication | `lubrication.rs`, `gaps.rs` |
+//! | C5 | lubrication | `setup/suspension/lubrication.rs`, `gaps.rs` |
 //! | C6 | velocity of the surface, implicit in the link friction | `predict.rs` |
 //!
 //! # A fluid step with grains
@@ -28,19 +28,20 @@ mod held;
 mod host;
 mod immersed;
 mod link;
-mod lubrication;
 mod predict;
 mod pressure;
 mod refill;
 mod report;
 mod subcycle;
 
+pub use crate::setup::suspension::lubrication::{
+    normal as lubrication_normal, tangential as lubrication_tangential,
+};
 pub use crate::setup::suspension::{
-    GrainRefill, GrainWall, Lubrication, Mutant, RefillMass, Suspension, VolumeRule,
+    CouplingEquations, GrainRefill, GrainWall, Lubrication, StandardCoupling, Suspension,
 };
 pub use host::{Host, Place, Uncovered};
 pub use immersed::{BodyLoad, Immersed, body_force};
-pub use lubrication::{normal as lubrication_normal, tangential as lubrication_tangential};
 pub use report::{CouplingBooks, GrainTotals};
 
 /// A vector in lattice units.
