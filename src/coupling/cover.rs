@@ -11,8 +11,14 @@ use crate::lattice::{Q, W};
 use std::collections::BTreeMap;
 
 impl Immersed {
+    /// Covers and uncovers cells after the grains have moved.
+    pub(super) fn follow(&mut self, host: &mut dyn Host) {
+        let changes = self.update_coverage(host.setup(), host.pool());
+        self.apply(host, &changes);
+    }
+
     /// Takes newly covered cells out of the fluid and gives freed ones back.
-    pub(super) fn apply(&mut self, host: &mut dyn Host, changes: &Changes) {
+    fn apply(&mut self, host: &mut dyn Host, changes: &Changes) {
         for &(cell, grain) in &changes.covered {
             let cell = cell as usize;
             let kind = host.kind(cell);

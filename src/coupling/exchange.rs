@@ -2,8 +2,9 @@
 
 use super::L3;
 use super::gather::{Gathered, Open, Pressed};
-use super::host::{Host, Place};
-use super::immersed::{BodyLoad, Immersed, on_pool};
+use super::host::Host;
+use super::immersed::{Immersed, on_pool};
+use super::load::{BodyLoad, Returned};
 use super::predict::middle;
 use crate::lattice::{C, W};
 use crate::setup::suspension::GrainWall;
@@ -12,32 +13,6 @@ use rayon::prelude::*;
 
 /// Grains answered before what they return is put in place: it is still in the cache then.
 const TURN: usize = 256;
-
-/// What goes to the cells and to the books.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Returned {
-    /// Populations of covered cells.
-    pub values: Vec<(Place, f64)>,
-    /// (interface cell, mass that it gets).
-    pub gained: Vec<(u32, f64)>,
-    pub load: BodyLoad,
-    /// Mass that came into the fluid over links.
-    pub mass: f64,
-    /// Of this into liquid, less the volume that the surface displaces there at the reference density.
-    pub excess: f64,
-    /// Momentum that came into the fluid over links.
-    pub momentum: L3,
-}
-
-impl Returned {
-    /// Empty, with the room it has.
-    fn start(&mut self) {
-        let (mut values, mut gained) = (std::mem::take(&mut self.values), std::mem::take(&mut self.gained));
-        values.clear();
-        gained.clear();
-        *self = Self { values, gained, ..Self::default() };
-    }
-}
 
 /// What is needed while a grain answers, for one after the other.
 #[derive(Default)]

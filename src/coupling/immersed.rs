@@ -1,38 +1,17 @@
 //! The grains of a run: where they are, what they cover, what acts on them.
 
 use super::L3;
+use super::books::CouplingBooks;
 use super::coverage::Coverage;
-use super::exchange::Returned;
 use super::gaps::Gaps;
 use super::host::Host;
 use super::link::{Ball, Box3};
-use super::report::CouplingBooks;
+use super::load::{BodyLoad, Returned};
 use crate::dem::{Dem, DemError, Shape, V3};
 use crate::setup::Setup;
 use crate::setup::suspension::Suspension;
 use crate::vector::norm;
 use std::sync::OnceLock;
-
-/// Force and torque on one grain in the last step, lattice units: (F, T).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BodyLoad {
-    /// Over links to fluid cells \[C2\].
-    pub links: [f64; 6],
-    /// Of fluid too thin for a cell, between the grain and walls or other grains.
-    pub held: [f64; 6],
-    /// Pressure gradients besides the computed pressure.
-    pub rest: [f64; 6],
-    /// Links to fluid cells.
-    pub wet_links: u32,
-}
-
-impl BodyLoad {
-    /// All of it: what the fluid does to the grain, without lubrication.
-    #[must_use]
-    pub fn total(&self) -> [f64; 6] {
-        std::array::from_fn(|a| self.links[a] + self.held[a] + self.rest[a])
-    }
-}
 
 /// Body force of a step, with the pressure gradient that balances the weight of grains, if there are any.
 #[must_use]
@@ -212,7 +191,7 @@ impl Immersed {
         self.coverage.bytes() + (self.loads.len() * (size_of::<BodyLoad>() + size_of::<[f64; 6]>())) as u64
     }
 
-    fn update_coverage(
+    pub(super) fn update_coverage(
         &mut self,
         setup: &Setup,
         pool: Option<&rayon::ThreadPool>,
@@ -228,12 +207,6 @@ impl Immersed {
         let changes = on_pool(&self.alone, pool, || coverage.update(setup, &this.shape, &balls, &moved));
         self.coverage = coverage;
         changes
-    }
-
-    /// Covers and uncovers cells after the grains have moved.
-    pub(super) fn follow(&mut self, host: &mut dyn Host) {
-        let changes = self.update_coverage(host.setup(), host.pool());
-        self.apply(host, &changes);
     }
 
     /// Uniform pressure gradient for the next step: the sum of all forces on fluid and free grains is zero.

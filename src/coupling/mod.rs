@@ -8,7 +8,7 @@
 //!
 //! | tag | equation | file |
 //! | --- | --- | --- |
-//! | C1 | covered cells, links, wall velocity | `coverage.rs`, `link.rs`, `gather.rs` |
+//! | C1 | covered cells, links, wall velocity | `coverage.rs`, `inside.rs`, `link.rs`, `gather.rs` |
 //! | C2 | force and torque by momentum exchange | `exchange.rs`, `held.rs` |
 //! | C3 | covering, uncovering, refill, ledger | `cover.rs`, `refill.rs` |
 //! | C4 | sub-cycling | `subcycle.rs` |
@@ -19,6 +19,7 @@
 //! collide → [`Immersed::exchange`] (links, forces) → stream, free surface → [`Immersed::advance`] (grains move by the
 //! force of this step, cells are covered and uncovered).
 
+mod books;
 mod cover;
 mod coverage;
 mod exchange;
@@ -27,7 +28,9 @@ mod gather;
 mod held;
 mod host;
 mod immersed;
+mod inside;
 mod link;
+mod load;
 mod predict;
 mod pressure;
 mod refill;
@@ -40,9 +43,11 @@ pub use crate::setup::suspension::lubrication::{
 pub use crate::setup::suspension::{
     CouplingEquations, GrainRefill, GrainWall, Lubrication, StandardCoupling, Suspension,
 };
+pub use books::CouplingBooks;
 pub use host::{Host, Place, Uncovered};
-pub use immersed::{BodyLoad, Immersed, body_force};
-pub use report::{CouplingBooks, GrainTotals};
+pub use immersed::{Immersed, body_force};
+pub use load::BodyLoad;
+pub use report::GrainTotals;
 
 /// A vector in lattice units.
 pub type L3 = [f64; 3];

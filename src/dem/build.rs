@@ -1,8 +1,8 @@
 //! From a set-up to the start of a run: checks and layout.
 
 use super::bodies::{Bodies, Member};
-use super::contact::Losses;
 use super::contact::pass::PairState;
+use super::contact::{ContactEquations, Losses, StandardContact};
 use super::integrate::Step;
 use super::material::PairTable;
 use super::neighbours::PairList;
@@ -251,6 +251,28 @@ fn check_period(s: &Setup, b: &Bodies, members: &[Member]) -> Result<(), DemErro
 }
 
 impl Dem {
+    /// Checks a set-up and finds the forces at the start.
+    ///
+    /// # Errors
+    /// Everything [`DemError`] lists as bad input.
+    pub fn new(setup: &Setup) -> Result<Self, DemError> {
+        Self::with_equations(setup, StandardContact)
+    }
+
+    /// As [`Dem::new`], with other equations of contact: for trials, which go on with [`Dem::step_with`].
+    ///
+    /// # Errors
+    /// Everything [`DemError`] lists as bad input.
+    pub fn with_equations(setup: &Setup, equations: impl ContactEquations) -> Result<Self, DemError> {
+        let mut dem = build(setup)?;
+        dem.renew_lists();
+        dem.check_start(setup)?;
+        dem.forces(equations, 0.0)?;
+        dem.rates = dem.rates_now();
+        dem.start_gear();
+        Ok(dem)
+    }
+
     /// No overlap beyond what the set-up allows, between bodies and with walls.
     pub(super) fn check_start(&self, setup: &Setup) -> Result<(), DemError> {
         for (p, &(a, b)) in self.list.pairs.iter().enumerate() {

@@ -9,7 +9,7 @@ use super::material::PairTable;
 use super::neighbours::PairList;
 use super::setup::{Period, Shape};
 use super::walls::pass::{self as wall_pass, NearWall, Scenery};
-use super::{DemError, Setup, V3};
+use super::{DemError, V3};
 use rayon::prelude::*;
 
 /// Members per task at least.
@@ -46,28 +46,6 @@ pub struct Dem {
 }
 
 impl Dem {
-    /// Checks a set-up and finds the forces at the start.
-    ///
-    /// # Errors
-    /// Everything [`DemError`] lists as bad input.
-    pub fn new(setup: &Setup) -> Result<Self, DemError> {
-        Self::with_equations(setup, StandardContact)
-    }
-
-    /// As [`Dem::new`], with other equations of contact: for trials, which go on with [`Dem::step_with`].
-    ///
-    /// # Errors
-    /// Everything [`DemError`] lists as bad input.
-    pub fn with_equations(setup: &Setup, equations: impl ContactEquations) -> Result<Self, DemError> {
-        let mut dem = super::build::build(setup)?;
-        dem.renew_lists();
-        dem.check_start(setup)?;
-        dem.forces(equations, 0.0)?;
-        dem.rates = dem.rates_now();
-        dem.start_gear();
-        Ok(dem)
-    }
-
     /// Advances by `n` steps.
     ///
     /// # Errors
@@ -171,7 +149,7 @@ impl Dem {
     }
 
     /// Forces at the present places, and the second half of the step; `dt = 0` only finds the forces.
-    fn forces(&mut self, equations: impl ContactEquations, dt: f64) -> Result<(), DemError> {
+    pub(super) fn forces(&mut self, equations: impl ContactEquations, dt: f64) -> Result<(), DemError> {
         let inputs = Inputs { table: &self.table, members: &self.members, dt, limit: self.overlap_limit };
         let (losses, deep) = pass::run(equations, &inputs, &self.list, &mut self.pairs);
         if let Some(p) = deep {
@@ -216,7 +194,7 @@ impl Dem {
     }
 
     /// The rates of this step with the share of driven bodies.
-    fn rates_now(&self) -> Losses {
+    pub(super) fn rates_now(&self) -> Losses {
         let mut r = self.rates;
         for &i in &self.bodies.driven {
             let i = i as usize;

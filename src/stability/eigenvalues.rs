@@ -20,7 +20,7 @@ const SWEEPS: u32 = 60;
 /// apart yet.
 ///
 /// # Exactness
-/// + − × ÷ √ only; bit-stable. Backward stable: the eigenvalues are those of a matrix that differs by a few dozen
+/// Operations + − × ÷ √ only; bit-stable. Backward stable: the eigenvalues are those of a matrix that differs by a few dozen
 /// roundings of its norm, so that a simple one is found to about 1e-15 and a nearly defective pair to about 1e-8.
 /// # Source
 /// J. H. Wilkinson, The Algebraic Eigenvalue Problem (1965), chapter 8; G. H. Golub and C. F. Van Loan, Matrix
