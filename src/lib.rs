@@ -77,7 +77,7 @@
 //! | C2 | force and torque by momentum exchange | `coupling/exchange.rs` | `galilean-twin`, `sphere-spin-in-shear` |
 //! | C3 | covering, uncovering, refill, books | `coupling/cover.rs`, `refill.rs` | `stirred-pool-books`, `moving-sphere-mass` |
 //! | C4 | sub-cycling | `coupling/subcycle.rs` | test `parity_of_grains_in_a_fluid` |
-//! | C5 | lubrication | `coupling/lubrication.rs` | `lubrication-approach` |
+//! | C5 | lubrication | `setup/suspension/lubrication.rs` | `lubrication-approach` |
 //! | C6 | surface velocity, implicit in link friction | `coupling/predict.rs` | `coupled-density-ratios` |
 //! | C7 | load on fixed solids | `solver/books.rs` | `wall-hydrostatic-load` |
 
@@ -103,6 +103,7 @@ pub mod setup;
 pub mod solver;
 pub mod stability;
 pub mod units;
+pub mod vector;
 
 pub use collision::CollisionChoice;
 pub use fingerprint::Fingerprint;

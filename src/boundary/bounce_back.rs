@@ -3,6 +3,7 @@
 use crate::lane::Lane;
 use crate::lattice::W;
 use crate::lattice::equilibrium::dot;
+pub use crate::vector::surface_velocity;
 
 /// f_ī(x, t+1) = f_i*(x) − 6 w_i ρ c_i·u_w
 ///
@@ -49,21 +50,4 @@ pub fn cubic(i: usize, rho: f64, u: &[f64; 3]) -> f64 {
             -0.5 * rho * (product * sum)
         }
     }
-}
-
-/// u = u_p + ω × r
-///
-/// # Arguments
-/// `velocity`: translation. `spin`: angular velocity, radians per step. `arm`: point minus centre.
-/// # Source
-/// 004 Eq 3.38; ERRATA 18 (order of the product).
-/// # Verified by
-/// Claim `taylor-couette`.
-#[must_use]
-pub fn surface_velocity(velocity: [f64; 3], spin: [f64; 3], arm: [f64; 3]) -> [f64; 3] {
-    [
-        velocity[0] + (spin[1] * arm[2] - spin[2] * arm[1]),
-        velocity[1] + (spin[2] * arm[0] - spin[0] * arm[2]),
-        velocity[2] + (spin[0] * arm[1] - spin[1] * arm[0]),
-    ]
 }

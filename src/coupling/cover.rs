@@ -8,12 +8,17 @@ use crate::dem::keep_marked;
 use crate::free_surface::Kind;
 use crate::lattice::moments::{density_excess, momentum};
 use crate::lattice::{Q, W};
-use crate::setup::suspension::Mutant;
 use std::collections::BTreeMap;
 
 impl Immersed {
+    /// Covers and uncovers cells after the grains have moved.
+    pub(super) fn follow(&mut self, host: &mut dyn Host) {
+        let changes = self.update_coverage(host.setup(), host.pool());
+        self.apply(host, &changes);
+    }
+
     /// Takes newly covered cells out of the fluid and gives freed ones back.
-    pub(super) fn apply(&mut self, host: &mut dyn Host, changes: &Changes) {
+    fn apply(&mut self, host: &mut dyn Host, changes: &Changes) {
         for &(cell, grain) in &changes.covered {
             let cell = cell as usize;
             let kind = host.kind(cell);
@@ -30,9 +35,8 @@ impl Immersed {
             }
             host.cover(cell);
             self.debt[grain as usize] += mass;
-            if self.config.mutant != Mutant::CoveredMassDropped {
-                host.book(-mass, &taken.map(|p| -p));
-            }
+            let (gained, momentum) = self.config.equations.covering(mass, taken);
+            host.book(gained, &momentum);
             self.books.cover(mass, &taken);
         }
         if changes.freed.is_empty() {

@@ -1,10 +1,12 @@
 //! Which cells a grain covers, and its links \[C1\]. Work follows the grains that have moved.
 
 use super::L3;
+use super::inside::{Inside, inside};
 use super::link::{Ball, Blocked, Box3, Link};
 use crate::boundary::links::Source;
 use crate::lattice::{Q, opposite};
 use crate::setup::Setup;
+use crate::vector::norm_squared;
 use rayon::prelude::*;
 
 /// No grain.
@@ -32,6 +34,24 @@ pub struct Changes {
     pub covered: Vec<(u32, u32)>,
     /// (cell, grain) given free, ascending by cell.
     pub freed: Vec<(u32, u32)>,
+}
+
+impl Changes {
+    /// What is covered or free now and was not before: what only changed hands stays covered. Both ascending.
+    fn between(covered: &[(u32, u32)], freed: &[(u32, u32)]) -> Self {
+        let holds = |list: &[(u32, u32)], cell: u32| list.binary_search_by_key(&cell, |c| c.0).is_ok();
+        let beyond = |list: &[(u32, u32)], other: &[(u32, u32)]| {
+            list.iter().copied().filter(|c| !holds(other, c.0)).collect()
+        };
+        Self { covered: beyond(covered, freed), freed: beyond(freed, covered) }
+    }
+}
+
+/// What a look at one grain has found.
+struct Look {
+    grain: usize,
+    found: Inside,
+    balls: Vec<Ball>,
 }
 
 /// Coverage of the whole box.
@@ -124,38 +144,78 @@ impl Coverage {
         balls: &(impl Fn(usize) -> Vec<Ball> + Sync),
         moved: &(impl Fn(usize, &[L3]) -> f64 + Sync),
     ) -> Changes {
-        let found: Vec<Option<(Inside, Vec<Ball>)>> = self
+        let mut looked = self.look(setup, shape, balls, moved);
+        let freed = self.free(&looked);
+        // Given free first, so that a cell can pass from one grain to another.
+        let mut covered = self.take(&mut looked);
+        let mut heirs: Vec<usize> = Vec::new();
+        for &(cell, from) in &freed {
+            if self.owner[cell as usize] != NOBODY {
+                continue;
+            }
+            // A grain at rest beside the one that left may have had a claim on the cell all along.
+            if let Some(heir) = self.heir(setup, shape, balls, cell as usize, from) {
+                covered.push((cell, heir));
+                heirs.extend(self.inherit(&mut looked, cell, heir));
+            }
+        }
+        covered.sort_unstable();
+        let changes = Changes::between(&covered, &freed);
+        let mut renewed = self.settle(looked);
+        renewed.extend(heirs.into_iter().map(|grain| (grain, balls(grain))));
+        self.relink(setup, shape, &renewed);
+        changes
+    }
+
+    /// Cells inside the grains that have moved far enough, ascending by grain.
+    fn look(
+        &mut self,
+        setup: &Setup,
+        shape: &Box3,
+        balls: &(impl Fn(usize) -> Vec<Ball> + Sync),
+        moved: &(impl Fn(usize, &[L3]) -> f64 + Sync),
+    ) -> Vec<Look> {
+        let looked: Vec<Look> = self
             .covers
             .par_iter()
             .enumerate()
-            .map(|(grain, cover)| {
+            .filter_map(|(grain, cover)| {
                 if !cover.seen.is_empty() && moved(grain, &cover.seen) < cover.clearance {
                     return None;
                 }
                 let balls = balls(grain);
-                Some((inside(setup, shape, &balls), balls))
+                Some(Look { grain, found: inside(setup, shape, &balls), balls })
             })
             .collect();
-        let mut looked = Vec::new();
-        let mut freed: Vec<(u32, u32)> = Vec::new();
-        for (grain, (found, balls)) in
-            found.into_iter().enumerate().filter_map(|(grain, found)| Some((grain, found?)))
-        {
-            self.looks += 1;
-            let cover = &mut self.covers[grain];
+        for Look { grain, found, balls } in &looked {
+            let cover = &mut self.covers[*grain];
             cover.clearance = found.clearance;
             cover.seen = balls.iter().map(|ball| ball.centre).collect();
-            for &cell in &cover.cells {
+        }
+        self.looks += looked.len() as u64;
+        looked
+    }
+
+    /// Gives free what is no longer inside its grain: (cell, grain), ascending.
+    fn free(&mut self, looked: &[Look]) -> Vec<(u32, u32)> {
+        let mut freed = Vec::new();
+        for Look { grain, found, .. } in looked {
+            for &cell in &self.covers[*grain].cells {
                 if found.cells.binary_search(&cell).is_err() {
                     self.owner[cell as usize] = NOBODY;
-                    freed.push((cell, grain as u32));
+                    freed.push((cell, *grain as u32));
                 }
             }
-            looked.push((grain, found, balls));
         }
-        // Given free first, so that a cell can pass from one grain to another.
+        freed.sort_unstable();
+        freed
+    }
+
+    /// Gives cells that are nobody's to the grains that have them inside, (cell, grain); `looked` keeps what each grain
+    /// has got.
+    fn take(&mut self, looked: &mut [Look]) -> Vec<(u32, u32)> {
         let mut covered = Vec::new();
-        for (grain, found, _) in &mut looked {
+        for Look { grain, found, .. } in looked {
             let own = *grain as u32;
             let owner = &mut self.owner;
             found.cells.retain(|&cell| {
@@ -167,47 +227,42 @@ impl Coverage {
                 *owner == own
             });
         }
-        freed.sort_unstable();
-        let mut passed_on: Vec<usize> = Vec::new();
-        for &(cell, from) in &freed {
-            let owner = self.owner[cell as usize];
-            if owner != NOBODY {
-                continue;
-            }
-            // A grain at rest beside the one that left may have had a claim on the cell all along.
-            if let Some(heir) = self.heir(setup, shape, balls, cell as usize, from) {
-                self.owner[cell as usize] = heir;
-                covered.push((cell, heir));
-                match looked.iter_mut().find(|(grain, ..)| *grain == heir as usize) {
-                    Some((_, found, _)) => insert(&mut found.cells, cell),
-                    None => {
-                        insert(&mut self.covers[heir as usize].cells, cell);
-                        passed_on.push(heir as usize);
-                    }
-                }
-            }
+        covered
+    }
+
+    /// Gives a cell to a grain beside the one that left it; the grain, if it has not been looked at.
+    fn inherit(&mut self, looked: &mut [Look], cell: u32, heir: u32) -> Option<usize> {
+        self.owner[cell as usize] = heir;
+        let heir = heir as usize;
+        if let Ok(at) = looked.binary_search_by_key(&heir, |look| look.grain) {
+            insert(&mut looked[at].found.cells, cell);
+            return None;
         }
-        covered.sort_unstable();
-        // What only changed hands stays covered.
-        let stays = |list: &[(u32, u32)], cell: u32| list.binary_search_by_key(&cell, |c| c.0).is_ok();
-        let truly_freed = freed.iter().copied().filter(|c| !stays(&covered, c.0)).collect();
-        let truly_covered = covered.iter().copied().filter(|c| !stays(&freed, c.0)).collect();
-        let mut renewed: Vec<(usize, Vec<Ball>)> = Vec::with_capacity(looked.len() + passed_on.len());
-        for (grain, found, balls) in looked {
-            // Links follow from the cells of the grain itself and from fixed solids.
+        insert(&mut self.covers[heir].cells, cell);
+        Some(heir)
+    }
+
+    /// Enters what was found; the grains whose cells have changed. Links follow from the cells of the grain itself and
+    /// from fixed solids.
+    fn settle(&mut self, looked: Vec<Look>) -> Vec<(usize, Vec<Ball>)> {
+        let mut renewed = Vec::with_capacity(looked.len());
+        for Look { grain, found, balls } in looked {
             if self.covers[grain].cells != found.cells {
                 self.covers[grain].cells = found.cells;
                 renewed.push((grain, balls));
             }
         }
-        renewed.extend(passed_on.into_iter().map(|grain| (grain, balls(grain))));
+        renewed
+    }
+
+    /// Finds the links of some grains anew.
+    fn relink(&mut self, setup: &Setup, shape: &Box3, renewed: &[(usize, Vec<Ball>)]) {
         let links: Vec<_> =
             renewed.par_iter().map(|(grain, balls)| self.links(setup, shape, *grain, balls)).collect();
         for ((grain, _), (links, blocked)) in renewed.iter().zip(links) {
             let cover = &mut self.covers[*grain];
             (cover.links, cover.blocked) = (links, blocked);
         }
-        Changes { covered: truly_covered, freed: truly_freed }
     }
 
     /// The grain with the lowest number beside a cell that has it inside.
@@ -227,10 +282,8 @@ impl Coverage {
             if owner == NOBODY || owner == from || found.is_some_and(|f| f <= owner) {
                 continue;
             }
-            let holds = |ball: &Ball| {
-                let d = shape.apart(&centre, &ball.centre);
-                d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < ball.radius * ball.radius
-            };
+            let holds =
+                |ball: &Ball| norm_squared(shape.apart(&centre, &ball.centre)) < ball.radius * ball.radius;
             if balls(owner as usize).iter().any(holds) {
                 found = Some(owner);
             }
@@ -246,9 +299,8 @@ impl Coverage {
         let deep = |cell: usize| {
             let centre = shape.centre(cell);
             balls.iter().any(|ball| {
-                let d = shape.apart(&centre, &ball.centre);
                 let room = ball.radius - 1.5;
-                room > 0.0 && d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < room * room
+                room > 0.0 && norm_squared(shape.apart(&centre, &ball.centre)) < room * room
             })
         };
         for &cell in &self.covers[grain].cells {
@@ -291,65 +343,4 @@ fn insert(list: &mut Vec<u32>, cell: u32) {
     if let Err(at) = list.binary_search(&cell) {
         list.insert(at, cell);
     }
-}
-
-/// Cells with their centre inside some balls.
-struct Inside {
-    /// Ascending.
-    cells: Vec<u32>,
-    /// Least distance of any cell centre from the surface of a ball, cells, at most 1.
-    clearance: f64,
-}
-
-fn inside(setup: &Setup, shape: &Box3, balls: &[Ball]) -> Inside {
-    let mut cells = Vec::new();
-    let mut clearance = 1.0_f64;
-    for ball in balls {
-        let (r2, reach) = (ball.radius * ball.radius, ball.radius + 1.0);
-        // | |d| − r | ≥ |d² − r²| / (2r + 1) for all cells looked at.
-        let scale = 1.0 / (ball.radius + reach);
-        let range = |a: usize| {
-            let low = (ball.centre[a] - reach - 0.5).ceil() as i64;
-            let high = (ball.centre[a] + reach - 0.5).floor() as i64;
-            let n = shape.extents[a] as i64;
-            if shape.periodic[a] { (low, high) } else { (low.max(0), high.min(n - 1)) }
-        };
-        let [x, y, z] = [range(0), range(1), range(2)];
-        let fold = |k: i64, a: usize| {
-            if shape.periodic[a] { k.rem_euclid(shape.extents[a] as i64) as usize } else { k as usize }
-        };
-        for k in z.0..=z.1 {
-            let dz = k as f64 + 0.5 - ball.centre[2];
-            for j in y.0..=y.1 {
-                let dy = j as f64 + 0.5 - ball.centre[1];
-                let rest = dy * dy + dz * dz;
-                // Beyond this no cell is inside, or nearer to the surface than 1.
-                let span2 = reach * reach - rest;
-                if span2 < 0.0 {
-                    continue;
-                }
-                let span = span2.sqrt();
-                let low = ((ball.centre[0] - span - 0.5).ceil() as i64).max(x.0);
-                let high = ((ball.centre[0] + span - 0.5).floor() as i64).min(x.1);
-                let row = setup.index([0, fold(j, 1), fold(k, 2)]);
-                for i in low..=high {
-                    let dx = i as f64 + 0.5 - ball.centre[0];
-                    let beyond = (dx * dx + rest) - r2;
-                    let gap = beyond.abs() * scale;
-                    if gap < clearance {
-                        clearance = gap;
-                    }
-                    if beyond < 0.0 {
-                        let cell = row + fold(i, 0);
-                        if !setup.is_solid(cell) {
-                            cells.push(cell as u32);
-                        }
-                    }
-                }
-            }
-        }
-    }
-    cells.sort_unstable();
-    cells.dedup();
-    Inside { cells, clearance }
 }

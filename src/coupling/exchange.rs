@@ -2,43 +2,17 @@
 
 use super::L3;
 use super::gather::{Gathered, Open, Pressed};
-use super::host::{Host, Place};
-use super::immersed::{BodyLoad, Immersed, on_pool};
-use super::link::cross;
+use super::host::Host;
+use super::immersed::{Immersed, on_pool};
+use super::load::{BodyLoad, Returned};
 use super::predict::middle;
-use crate::boundary::bounce_back::surface_velocity;
 use crate::lattice::{C, W};
-use crate::setup::suspension::{GrainWall, Mutant};
+use crate::setup::suspension::GrainWall;
+use crate::vector::{cross, norm};
 use rayon::prelude::*;
 
 /// Grains answered before what they return is put in place: it is still in the cache then.
 const TURN: usize = 256;
-
-/// What goes to the cells and to the books.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Returned {
-    /// Populations of covered cells.
-    pub values: Vec<(Place, f64)>,
-    /// (interface cell, mass that it gets).
-    pub gained: Vec<(u32, f64)>,
-    pub load: BodyLoad,
-    /// Mass that came into the fluid over links.
-    pub mass: f64,
-    /// Of this into liquid, less the volume that the surface displaces there at the reference density.
-    pub excess: f64,
-    /// Momentum that came into the fluid over links.
-    pub momentum: L3,
-}
-
-impl Returned {
-    /// Empty, with the room it has.
-    fn start(&mut self) {
-        let (mut values, mut gained) = (std::mem::take(&mut self.values), std::mem::take(&mut self.gained));
-        values.clear();
-        gained.clear();
-        *self = Self { values, gained, ..Self::default() };
-    }
-}
 
 /// What is needed while a grain answers, for one after the other.
 #[derive(Default)]
@@ -158,7 +132,7 @@ impl Immersed {
         let (given, taken) = (open.leaving + value, open.leaving - value);
         let c = C[out].map(f64::from);
         let push: L3 = std::array::from_fn(|a| c[a] * given - u[a] * taken);
-        let turn = cross(&open.arm(), &push);
+        let turn = cross(open.arm(), push);
         for a in 0..3 {
             links[a] += push[a];
             links[a + 3] += turn[a];
@@ -177,11 +151,7 @@ impl Immersed {
 
     /// Velocity of the surface at a link, and what it adds to a half-way link \[B1\].
     fn moving(&self, host: &dyn Host, (arm, out): (&L3, usize), rho: f64, w: &[f64; 6]) -> (L3, f64) {
-        let spin = match self.config.mutant {
-            Mutant::ReversedProduct => [-w[3], -w[4], -w[5]],
-            _ => [w[3], w[4], w[5]],
-        };
-        let u = surface_velocity([w[0], w[1], w[2]], spin, *arm);
+        let u = self.config.equations.surface_velocity([w[0], w[1], w[2]], [w[3], w[4], w[5]], *arm);
         (u, host.moving_wall(out, rho, &u))
     }
 
@@ -247,7 +217,7 @@ impl Immersed {
     /// Mass that a grain hands back to the interface around it in this step: what the staircase of its waterline has
     /// taken too much or given too much, over one cell of travel.
     fn settlement(&self, grain: usize, w: &[f64; 6]) -> f64 {
-        let travel = (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]).sqrt();
+        let travel = norm([w[0], w[1], w[2]]);
         self.debt[grain] * travel
     }
 }

@@ -1,22 +1,17 @@
 //! Gaps between grains, and between grains and walls, and what the fluid does in them \[C5\].
 
-use super::lubrication::{Tangential, normal, tangential};
 use crate::dem::bodies::{Bodies, Member};
 use crate::dem::neighbours::PairList;
 use crate::dem::walls::{self, Near};
 use crate::dem::{Dem, V3};
 use crate::rheology::Law;
 use crate::setup::Setup;
-use crate::setup::suspension::{Lubrication, Mutant, Suspension};
+use crate::setup::suspension::lubrication::{STIFFEST, Tangential, tangential};
+use crate::setup::suspension::{Lubrication, Suspension};
 use crate::units::Units;
-use std::f64::consts::PI;
 
 /// How far a member may move before the list is made anew, cells.
 const MARGIN: f64 = 0.25;
-
-/// Largest share of a pair's reduced mass over the grains' step that the friction of a gap may reach: an explicit
-/// step overshoots beyond 2 and is accurate far below.
-const STIFFEST: f64 = 0.5;
 
 /// Largest share of a grain's mass, or moment of inertia, over the grains' step that all of its gaps together may
 /// reach. A clump wedged in may have ten of them: two neighbours that both do damp each other at twice this rate, and
@@ -106,8 +101,6 @@ pub struct Gaps {
     pairs: Vec<usize>,
     /// Members close to walls.
     walls: Vec<(usize, usize)>,
-    /// Gaps whose friction was limited, so far.
-    limited: u64,
     /// Sum over the sub-steps of a step of the forces on each wall, N.
     on_walls: Vec<V3>,
 }
@@ -122,7 +115,6 @@ impl Gaps {
             seen: Vec::new(),
             pairs: Vec::new(),
             walls: Vec::new(),
-            limited: 0,
             on_walls: Vec::new(),
         }
     }
@@ -130,11 +122,6 @@ impl Gaps {
     /// Force of the gaps on wall `k`, sum over the grains' steps in the last step of the fluid, N.
     pub fn on_wall(&self, k: usize) -> V3 {
         self.on_walls.get(k).copied().unwrap_or_default()
-    }
-
-    /// How often the friction of a gap was limited to what the time step allows.
-    pub fn limited(&self) -> u64 {
-        self.limited
     }
 
     /// Forgets the list: grains have left.
@@ -208,12 +195,7 @@ impl Gaps {
         for Acting { meeting, friction, sides, wall } in &acting {
             let share = |side: &Option<(usize, V3)>| side.map_or(1.0, |(body, _)| shares[body]);
             let share = share(&sides[0]).min(share(&sides[1]));
-            let friction = if share < 1.0 {
-                self.limited += 1;
-                friction.scaled(share)
-            } else {
-                *friction
-            };
+            let friction = if share < 1.0 { friction.scaled(share) } else { *friction };
             let (f, first, second) = self.act(meeting, &friction);
             let f = f * force;
             let (first, second) = (first * (force * units.dx_m), second * (force * units.dx_m));
@@ -321,12 +303,10 @@ impl Gaps {
         let approach = n.dot(velocity);
         let across = velocity - n * approach;
         let viscosity = self.viscosity(reduced, h, approach.abs(), across.norm());
-        let pi_share = if config.mutant == Mutant::LubricationWithoutPi { 1.0 / PI } else { 1.0 };
-        let mut friction = normal(viscosity, reduced, h, cutoff) * pi_share;
+        let mut friction = config.equations.lubrication(viscosity, reduced, h, cutoff);
         let most = STIFFEST * mass * f64::from(config.sub_steps.max(1));
         let share = if friction > most { most / friction } else { 1.0 };
         if share < 1.0 {
-            self.limited += 1;
             friction = most;
         }
         let tangential = if self.rules.tangential {

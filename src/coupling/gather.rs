@@ -4,13 +4,14 @@ use super::L3;
 use super::coverage::NOBODY;
 use super::host::Host;
 use super::immersed::Immersed;
-use super::link::{Ball, Link, cross, cut};
+use super::link::{Ball, Link, cut};
 use super::predict::Friction;
 use super::pressure::{Fit, Samples};
 use crate::free_surface::Kind;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{C, Q, W};
 use crate::setup::suspension::GrainWall;
+use crate::vector::cross;
 
 /// A link whose outer cell holds fluid.
 #[derive(Clone, Copy, Debug)]
@@ -181,7 +182,7 @@ impl Immersed {
         for open in &found.open {
             let out = usize::from(open.link.out);
             let c = C[out].map(f64::from);
-            let turn = cross(&open.arm(), &c);
+            let turn = cross(open.arm(), c);
             let v = [c[0], c[1], c[2], turn[0], turn[1], turn[2]];
             found.friction.add(&v, open.leaving + open.base, 6.0 * W[out] * open.rho * open.share);
         }

@@ -5,11 +5,10 @@ use super::coverage::NOBODY;
 use super::gather::{Gathered, Pressed};
 use super::host::Host;
 use super::immersed::Immersed;
-use super::link::cross;
 use crate::free_surface::Kind;
 use crate::free_surface::hydrostatic::axis_of;
 use crate::lattice::{C, W};
-use crate::setup::suspension::VolumeRule;
+use crate::vector::{cross, norm};
 
 impl Immersed {
     /// Force and torque of the fluid that is pressed between a grain and a wall or another grain, too thin for a cell:
@@ -29,7 +28,7 @@ impl Immersed {
             let excess = if with_gas && excess < 0.0 { 0.0 } else { excess };
             let c = C[inward].map(f64::from);
             let push = c.map(|c| c * (2.0 * W[inward] * excess));
-            let turn = cross(r, &push);
+            let turn = cross(*r, push);
             for a in 0..3 {
                 sum[a] += push[a];
                 sum[a + 3] += turn[a];
@@ -74,14 +73,14 @@ impl Immersed {
         for a in 0..3 {
             sum[a] = volume * (self.config.pressure_gradient[a] + self.gradient[a]);
         }
-        if self.config.volume == VolumeRule::Corrected {
-            let axis = axis_of(force);
-            let wet = own.open.len() as f64;
-            let all = wet + own.dry.len() as f64;
-            if !self.shape.periodic[axis] && all > 0.0 {
-                let missing = volume - self.coverage.of(grain).cells.len() as f64;
-                sum[axis] -= missing * force[axis] * (wet / all);
-            }
+        // The weight of the fluid that fits between the grain's volume and its cells, in proportion to the wet part
+        // of the surface.
+        let axis = axis_of(force);
+        let wet = own.open.len() as f64;
+        let all = wet + own.dry.len() as f64;
+        if !self.shape.periodic[axis] && all > 0.0 {
+            let missing = volume - self.coverage.of(grain).cells.len() as f64;
+            sum[axis] -= missing * force[axis] * (wet / all);
         }
         sum
     }
@@ -89,7 +88,7 @@ impl Immersed {
     /// What contacts will do in this step: what they did in the last, but no more than what they have to hold.
     pub(super) fn expected_contact(&self, grain: usize, others: &[f64; 6]) -> [f64; 6] {
         let last = &self.contact[grain];
-        let norm = |v: &[f64]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+        let norm = |v: &[f64]| norm([v[0], v[1], v[2]]);
         let mut expected = [0.0; 6];
         for part in [0..3, 3..6] {
             let (was, held) = (norm(&last[part.clone()]), norm(&others[part.clone()]));

@@ -1,38 +1,17 @@
 //! The grains of a run: where they are, what they cover, what acts on them.
 
 use super::L3;
+use super::books::CouplingBooks;
 use super::coverage::Coverage;
-use super::exchange::Returned;
 use super::gaps::Gaps;
 use super::host::Host;
 use super::link::{Ball, Box3};
-use super::report::CouplingBooks;
-use crate::dem::bodies::SPHERE;
-use crate::dem::{Dem, DemError, V3};
+use super::load::{BodyLoad, Returned};
+use crate::dem::{Dem, DemError, Shape, V3};
 use crate::setup::Setup;
 use crate::setup::suspension::Suspension;
+use crate::vector::norm;
 use std::sync::OnceLock;
-
-/// Force and torque on one grain in the last step, lattice units: (F, T).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BodyLoad {
-    /// Over links to fluid cells \[C2\].
-    pub links: [f64; 6],
-    /// Of fluid too thin for a cell, between the grain and walls or other grains.
-    pub held: [f64; 6],
-    /// Pressure gradients besides the computed pressure.
-    pub rest: [f64; 6],
-    /// Links to fluid cells.
-    pub wet_links: u32,
-}
-
-impl BodyLoad {
-    /// All of it: what the fluid does to the grain, without lubrication.
-    #[must_use]
-    pub fn total(&self) -> [f64; 6] {
-        std::array::from_fn(|a| self.links[a] + self.held[a] + self.rest[a])
-    }
-}
 
 /// Body force of a step, with the pressure gradient that balances the weight of grains, if there are any.
 #[must_use]
@@ -148,11 +127,6 @@ impl Immersed {
         &self.dem
     }
 
-    /// The same, to be told new motions: driven grains, tests.
-    pub fn dem_mut(&mut self) -> &mut Dem {
-        &mut self.dem
-    }
-
     /// What was asked for.
     #[must_use]
     pub fn config(&self) -> &Suspension {
@@ -198,12 +172,6 @@ impl Immersed {
         self.failure.as_ref()
     }
 
-    /// How often the friction of a narrow gap was limited to what the grains' time step allows, so far.
-    #[must_use]
-    pub fn limited_gaps(&self) -> u64 {
-        self.gaps.as_ref().map_or(0, Gaps::limited)
-    }
-
     /// Mean force of lubrication on a wall of the grains in the last step, N.
     #[must_use]
     pub fn lubrication_on_wall(&self, wall: usize) -> V3 {
@@ -223,7 +191,7 @@ impl Immersed {
         self.coverage.bytes() + (self.loads.len() * (size_of::<BodyLoad>() + size_of::<[f64; 6]>())) as u64
     }
 
-    fn update_coverage(
+    pub(super) fn update_coverage(
         &mut self,
         setup: &Setup,
         pool: Option<&rayon::ThreadPool>,
@@ -232,20 +200,13 @@ impl Immersed {
         let this = &*self;
         let balls = |grain: usize| this.balls(grain);
         let moved = |grain: usize, seen: &[L3]| {
-            this.members(grain).zip(seen).fold(0.0, |far: f64, (ball, seen)| {
-                let d = this.shape.apart(&ball.centre, seen);
-                far.max((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt())
-            })
+            this.members(grain)
+                .zip(seen)
+                .fold(0.0, |far: f64, (ball, seen)| far.max(norm(this.shape.apart(&ball.centre, seen))))
         };
         let changes = on_pool(&self.alone, pool, || coverage.update(setup, &this.shape, &balls, &moved));
         self.coverage = coverage;
         changes
-    }
-
-    /// Covers and uncovers cells after the grains have moved.
-    pub(super) fn follow(&mut self, host: &mut dyn Host) {
-        let changes = self.update_coverage(host.setup(), host.pool());
-        self.apply(host, &changes);
     }
 
     /// Uniform pressure gradient for the next step: the sum of all forces on fluid and free grains is zero.
@@ -338,7 +299,7 @@ impl Immersed {
         let (bodies, units) = (self.dem.bodies(), &self.config.units);
         let scale = self.mass_scale() / (units.dx_m * units.dx_m);
         let principal = bodies.inertia[grain] * scale;
-        if bodies.shape[grain] == SPHERE {
+        if bodies.shape[grain] == Shape::Sphere {
             return std::array::from_fn(|a| std::array::from_fn(|b| if a == b { principal.x } else { 0.0 }));
         }
         let turn = bodies.orientation[grain].to_rotation_matrix();

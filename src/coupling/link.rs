@@ -4,6 +4,7 @@ use super::L3;
 use crate::boundary::links::{Source, resolve};
 use crate::lattice::{C, Q, opposite};
 use crate::setup::{Face, Setup};
+use crate::vector::{dot, norm_squared};
 
 /// A sphere of a grain, lattice units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,11 +142,11 @@ impl Box3 {
 #[must_use]
 pub fn cut(balls: &[(L3, f64)], out: usize) -> f64 {
     let c = C[out].map(f64::from);
-    let length2 = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+    let length2 = norm_squared(c);
     let mut first = 2.0;
     for &(d, r) in balls {
-        let along = d[0] * c[0] + d[1] * c[1] + d[2] * c[2];
-        let beyond = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] - r * r;
+        let along = dot(d, c);
+        let beyond = norm_squared(d) - r * r;
         let discriminant = along * along - length2 * beyond;
         if discriminant < 0.0 || along >= 0.0 {
             continue;
@@ -156,13 +157,6 @@ pub fn cut(balls: &[(L3, f64)], out: usize) -> f64 {
         }
     }
     if first <= 1.0 { first } else { 0.5 }
-}
-
-/// r × f.
-#[inline]
-#[must_use]
-pub fn cross(r: &L3, f: &L3) -> L3 {
-    [r[1] * f[2] - r[2] * f[1], r[2] * f[0] - r[0] * f[2], r[0] * f[1] - r[1] * f[0]]
 }
 
 #[cfg(test)]

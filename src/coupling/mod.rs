@@ -8,17 +8,18 @@
 //!
 //! | tag | equation | file |
 //! | --- | --- | --- |
-//! | C1 | covered cells, links, wall velocity | `coverage.rs`, `link.rs`, `gather.rs` |
+//! | C1 | covered cells, links, wall velocity | `coverage.rs`, `inside.rs`, `link.rs`, `gather.rs` |
 //! | C2 | force and torque by momentum exchange | `exchange.rs`, `held.rs` |
 //! | C3 | covering, uncovering, refill, ledger | `cover.rs`, `refill.rs` |
 //! | C4 | sub-cycling | `subcycle.rs` |
-//! | C5 | lubrication | `lubrication.rs`, `gaps.rs` |
+//! | C5 | lubrication | `setup/suspension/lubrication.rs`, `gaps.rs` |
 //! | C6 | velocity of the surface, implicit in the link friction | `predict.rs` |
 //!
 //! # A fluid step with grains
 //! collide → [`Immersed::exchange`] (links, forces) → stream, free surface → [`Immersed::advance`] (grains move by the
 //! force of this step, cells are covered and uncovered).
 
+mod books;
 mod cover;
 mod coverage;
 mod exchange;
@@ -27,21 +28,26 @@ mod gather;
 mod held;
 mod host;
 mod immersed;
+mod inside;
 mod link;
-mod lubrication;
+mod load;
 mod predict;
 mod pressure;
 mod refill;
 mod report;
 mod subcycle;
 
-pub use crate::setup::suspension::{
-    GrainRefill, GrainWall, Lubrication, Mutant, RefillMass, Suspension, VolumeRule,
+pub use crate::setup::suspension::lubrication::{
+    normal as lubrication_normal, tangential as lubrication_tangential,
 };
+pub use crate::setup::suspension::{
+    CouplingEquations, GrainRefill, GrainWall, Lubrication, StandardCoupling, Suspension,
+};
+pub use books::CouplingBooks;
 pub use host::{Host, Place, Uncovered};
-pub use immersed::{BodyLoad, Immersed, body_force};
-pub use lubrication::{normal as lubrication_normal, tangential as lubrication_tangential};
-pub use report::{CouplingBooks, GrainTotals};
+pub use immersed::{Immersed, body_force};
+pub use load::BodyLoad;
+pub use report::GrainTotals;
 
 /// A vector in lattice units.
 pub type L3 = [f64; 3];

@@ -2,6 +2,7 @@
 //! grain leaves no room for a fluid cell.
 
 use super::L3;
+use crate::vector::dot;
 use nalgebra::{Matrix4, Vector4};
 
 /// Sums over the fluid cells around a grain.
@@ -89,7 +90,7 @@ impl Fit {
     #[inline]
     #[must_use]
     pub fn at(&self, r: &L3) -> f64 {
-        let value = self.mean + (self.slope[0] * r[0] + self.slope[1] * r[1] + self.slope[2] * r[2]);
+        let value = self.mean + dot(self.slope, *r);
         // Not `clamp`: a fluid that has blown up must reach the guard, and not a panic here.
         if value < self.range[0] {
             self.range[0]

@@ -1,56 +1,9 @@
 //! What a coupled run tells about its grains.
 
 use super::L3;
-use super::exchange::Returned;
+use super::books::CouplingBooks;
 use super::immersed::Immersed;
 use crate::fingerprint::Hasher;
-use crate::free_surface::ledger::{Sum, VectorSum};
-
-/// Mass and momentum that went between fluid and grains, lattice units.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct CouplingBooks {
-    link_mass: Sum,
-    covered_mass: Sum,
-    freed_mass: Sum,
-    link_momentum: VectorSum,
-    covered_momentum: VectorSum,
-    freed_momentum: VectorSum,
-    /// Cells covered and cells freed so far that held or got fluid.
-    pub covered: u64,
-    /// See `covered`.
-    pub freed: u64,
-}
-
-impl CouplingBooks {
-    pub(super) fn enter_links(&mut self, returned: &Returned) {
-        self.link_mass.add(returned.mass);
-        self.link_momentum.add(&returned.momentum);
-    }
-
-    pub(super) fn cover(&mut self, mass: f64, momentum: &L3) {
-        self.covered_mass.add(mass);
-        self.covered_momentum.add(momentum);
-        self.covered += u64::from(mass != 0.0);
-    }
-
-    pub(super) fn free(&mut self, mass: f64, momentum: &L3) {
-        self.freed_mass.add(mass);
-        self.freed_momentum.add(momentum);
-        self.freed += u64::from(mass != 0.0);
-    }
-
-    /// Mass: into the fluid over links, out of it into grains, back from them.
-    #[must_use]
-    pub fn masses(&self) -> [f64; 3] {
-        [self.link_mass.value(), self.covered_mass.value(), self.freed_mass.value()]
-    }
-
-    /// Momentum, in the same order.
-    #[must_use]
-    pub fn momenta(&self) -> [L3; 3] {
-        [self.link_momentum.value(), self.covered_momentum.value(), self.freed_momentum.value()]
-    }
-}
 
 /// Sums over all free grains, lattice units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -4,6 +4,7 @@ use super::host::Host;
 use super::immersed::{Immersed, on_pool};
 use crate::dem::V3;
 use crate::setup::guard::{Runaway, Stopped};
+use crate::vector::norm_squared;
 
 impl Immersed {
     /// Moves the grains by the forces of this step, then covers and frees cells; after streaming and the free
@@ -33,7 +34,7 @@ impl Immersed {
         let limit = host.setup().speed_limit;
         for grain in 0..self.grains() {
             let w = self.motion(grain);
-            let speed2 = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
+            let speed2 = norm_squared([w[0], w[1], w[2]]);
             if speed2.is_nan() || speed2 > limit * limit {
                 let what = Runaway::GrainTooFast { grain: grain as u32, speed: speed2.sqrt(), limit };
                 return Err(self.stopped(host, grain, what));

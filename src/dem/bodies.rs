@@ -1,9 +1,7 @@
 //! State of the bodies (structure of arrays) and of their member spheres.
 
-use super::{Orientation, V3};
-
-/// Shape number of a single sphere.
-pub const SPHERE: u32 = u32::MAX;
+use super::{Orientation, Shape, V3};
+use rayon::prelude::*;
 
 /// State and constants of all bodies, one entry per body in the order of the grains of the set-up.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -32,15 +30,65 @@ pub struct Bodies {
     pub inverse_inertia: Vec<V3>,
     /// Radius of the sphere, or of the sphere of the clump's volume, m.
     pub radius: Vec<f64>,
-    /// Number of the clump in the set-up, or [`SPHERE`].
-    pub shape: Vec<u32>,
+    /// As in the set-up.
+    pub shape: Vec<Shape>,
     /// First member of each body, and the number of all members at the end.
     pub first_member: Vec<u32>,
     /// Bodies that move as told, not as pushed.
     pub driven: Vec<u32>,
 }
 
+/// One body as an integrator moves it.
+#[derive(Debug)]
+pub struct Body<'a> {
+    /// See [`Bodies`], for this and all that follow.
+    pub position: &'a mut V3,
+    /// m/s.
+    pub velocity: &'a mut V3,
+    /// rad/s.
+    pub spin: &'a mut V3,
+    /// Body frame to frame of the scene.
+    pub orientation: &'a mut Orientation,
+    /// kg m²/s; of clumps only.
+    pub momentum: &'a mut V3,
+    /// Contact force, N.
+    pub force: &'a mut V3,
+    /// Contact torque, N m.
+    pub torque: &'a mut V3,
+    /// 1/kg; 0 for driven bodies.
+    pub inverse_mass: &'a f64,
+    /// 1/(kg m²); 0 for driven bodies.
+    pub inverse_inertia: &'a V3,
+    /// Sphere or clump.
+    pub shape: &'a Shape,
+}
+
 impl Bodies {
+    /// All bodies one by one, in order.
+    pub(super) fn each(&mut self) -> impl IndexedParallelIterator<Item = Body<'_>> {
+        (
+            (&mut self.position, &mut self.velocity, &mut self.spin, &mut self.orientation),
+            (&mut self.momentum, &mut self.force, &mut self.torque),
+            (&self.inverse_mass, &self.inverse_inertia, &self.shape),
+        )
+            .into_par_iter()
+            .map(|(motion, (momentum, force, torque), (inverse_mass, inverse_inertia, shape))| {
+                let (position, velocity, spin, orientation) = motion;
+                Body {
+                    position,
+                    velocity,
+                    spin,
+                    orientation,
+                    momentum,
+                    force,
+                    torque,
+                    inverse_mass,
+                    inverse_inertia,
+                    shape,
+                }
+            })
+    }
+
     /// Number of bodies.
     pub fn len(&self) -> usize {
         self.position.len()
@@ -63,7 +111,7 @@ impl Bodies {
 
     /// Angular momentum of body `i` about its centre, kg m²/s.
     pub fn angular_momentum(&self, i: usize) -> V3 {
-        if self.shape[i] == SPHERE { self.spin[i] * self.inertia[i].x } else { self.momentum[i] }
+        if self.shape[i] == Shape::Sphere { self.spin[i] * self.inertia[i].x } else { self.momentum[i] }
     }
 }
 

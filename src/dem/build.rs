@@ -1,9 +1,9 @@
 //! From a set-up to the start of a run: checks and layout.
 
-use super::bodies::{Bodies, Member, SPHERE};
-use super::contact::Losses;
+use super::bodies::{Bodies, Member};
 use super::contact::pass::PairState;
-use super::integrate::verlet::Step;
+use super::contact::{ContactEquations, Losses, StandardContact};
+use super::integrate::Step;
 use super::material::PairTable;
 use super::neighbours::PairList;
 use super::rotation::momentum_of;
@@ -56,7 +56,6 @@ pub(super) fn build(setup: &Setup) -> Result<Dem, DemError> {
         integrator: setup.integrator,
         skin: setup.skin,
         overlap_limit: setup.overlap_limit,
-        mutant: setup.mutant,
         steps: 0,
         rates: Losses::default(),
         lost: Losses::default(),
@@ -159,12 +158,12 @@ fn add_body(
         material: g.material as u32,
     };
     let free = if g.driven { 0.0 } else { 1.0 };
-    let (mass, inertia, shape) = match g.shape {
+    let (mass, inertia) = match g.shape {
         Shape::Sphere => {
             let mass = density * 4.0 / 3.0 * std::f64::consts::PI * g.radius * g.radius * g.radius;
             members.push(member(g.radius, free / mass));
             offsets.push(V3::zeros());
-            (mass, V3::repeat(0.4 * mass * g.radius * g.radius), SPHERE)
+            (mass, V3::repeat(0.4 * mass * g.radius * g.radius))
         }
         Shape::Clump(k) => {
             let c: Clump = setup.clumps[k].with_equivalent_radius(g.radius)?;
@@ -173,14 +172,14 @@ fn add_body(
                 members.push(member(s.radius, free / mass));
                 offsets.push(s.centre);
             }
-            (mass, c.inertia * density, k as u32)
+            (mass, c.inertia * density)
         }
     };
     b.position.push(g.position);
     b.velocity.push(g.velocity);
     b.spin.push(g.spin);
     b.orientation.push(g.orientation);
-    b.momentum.push(if shape == SPHERE {
+    b.momentum.push(if g.shape == Shape::Sphere {
         V3::zeros()
     } else {
         momentum_of(&g.orientation, &inertia, &g.spin)
@@ -192,7 +191,7 @@ fn add_body(
     b.inertia.push(inertia);
     b.inverse_inertia.push(inertia.map(|x| free / x));
     b.radius.push(g.radius);
-    b.shape.push(shape);
+    b.shape.push(g.shape);
     b.first_member.push(members.len() as u32);
     if g.driven {
         b.driven.push(i as u32);
@@ -252,6 +251,28 @@ fn check_period(s: &Setup, b: &Bodies, members: &[Member]) -> Result<(), DemErro
 }
 
 impl Dem {
+    /// Checks a set-up and finds the forces at the start.
+    ///
+    /// # Errors
+    /// Everything [`DemError`] lists as bad input.
+    pub fn new(setup: &Setup) -> Result<Self, DemError> {
+        Self::with_equations(setup, StandardContact)
+    }
+
+    /// As [`Dem::new`], with other equations of contact: for trials, which go on with [`Dem::step_with`].
+    ///
+    /// # Errors
+    /// Everything [`DemError`] lists as bad input.
+    pub fn with_equations(setup: &Setup, equations: impl ContactEquations) -> Result<Self, DemError> {
+        let mut dem = build(setup)?;
+        dem.renew_lists();
+        dem.check_start(setup)?;
+        dem.forces(equations, 0.0)?;
+        dem.rates = dem.rates_now();
+        dem.start_gear();
+        Ok(dem)
+    }
+
     /// No overlap beyond what the set-up allows, between bodies and with walls.
     pub(super) fn check_start(&self, setup: &Setup) -> Result<(), DemError> {
         for (p, &(a, b)) in self.list.pairs.iter().enumerate() {

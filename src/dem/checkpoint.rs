@@ -102,6 +102,31 @@ fn unpack_losses(a: &[f64; 6]) -> Losses {
     Losses { normal: a[0], tangential: a[1], rolling: a[2], slip: a[3], roll_slip: a[4], driven: a[5] }
 }
 
+impl Checkpoint {
+    /// One entry of everything per body.
+    fn check_counts(&self, expected: usize) -> Result<(), DemError> {
+        for (what, found) in [
+            ("number of positions", self.position.len()),
+            ("number of velocities", self.velocity.len()),
+            ("number of spins", self.spin.len()),
+            ("number of orientations", self.orientation.len()),
+            ("number of angular momenta", self.momentum.len()),
+            ("number of forces", self.force.len()),
+            ("number of torques", self.torque.len()),
+            (
+                "number of external forces",
+                self.external.as_ref().map_or(expected, |e| e.0.len().min(e.1.len())),
+            ),
+            ("number of Gear states", self.gear.as_ref().map_or(expected, |e| e.0.len().min(e.1.len()))),
+        ] {
+            if found != expected {
+                return Err(DemError::Checkpoint { what, found, expected });
+            }
+        }
+        Ok(())
+    }
+}
+
 impl Dem {
     /// The state as plain data.
     pub fn checkpoint(&self) -> Checkpoint {
@@ -158,35 +183,8 @@ impl Dem {
     /// with contacts that the set-up cannot have.
     pub fn resume(setup: &Setup, c: &Checkpoint) -> Result<Self, DemError> {
         let mut dem = build(setup)?;
-        let expected = dem.bodies.len();
-        for (what, found) in [
-            ("number of positions", c.position.len()),
-            ("number of velocities", c.velocity.len()),
-            ("number of spins", c.spin.len()),
-            ("number of orientations", c.orientation.len()),
-            ("number of angular momenta", c.momentum.len()),
-            ("number of forces", c.force.len()),
-            ("number of torques", c.torque.len()),
-            ("number of external forces", c.external.as_ref().map_or(expected, |e| e.0.len().min(e.1.len()))),
-            ("number of Gear states", c.gear.as_ref().map_or(expected, |e| e.0.len().min(e.1.len()))),
-        ] {
-            if found != expected {
-                return Err(DemError::Checkpoint { what, found, expected });
-            }
-        }
-        let b = &mut dem.bodies;
-        b.position = unpack_all(&c.position);
-        b.velocity = unpack_all(&c.velocity);
-        b.spin = unpack_all(&c.spin);
-        // The stored bits are unit quaternions already; normalising again could change them.
-        b.orientation = c
-            .orientation
-            .iter()
-            .map(|q| Orientation::new_unchecked(nalgebra::Quaternion::new(q[0], q[1], q[2], q[3])))
-            .collect();
-        b.momentum = unpack_all(&c.momentum);
-        b.force = unpack_all(&c.force);
-        b.torque = unpack_all(&c.torque);
+        c.check_counts(dem.bodies.len())?;
+        dem.bodies_from(c);
         dem.external = c.external.as_ref().map(|(f, t)| (unpack_all(f), unpack_all(t)));
         let gear = |g: &Vec<PlainGear>| g.iter().map(|g| Gear(g.map(V3::from))).collect::<Vec<_>>();
         dem.gear = c.gear.as_ref().map(|(x, w)| (gear(x), gear(w)));
@@ -199,8 +197,30 @@ impl Dem {
             place(m, &dem.bodies, offset);
         }
         dem.renew_lists();
+        dem.pairs_from(c)?;
+        dem.wall_contacts_from(c)?;
+        Ok(dem)
+    }
+
+    fn bodies_from(&mut self, c: &Checkpoint) {
+        let b = &mut self.bodies;
+        b.position = unpack_all(&c.position);
+        b.velocity = unpack_all(&c.velocity);
+        b.spin = unpack_all(&c.spin);
+        // The stored bits are unit quaternions already; normalising again could change them.
+        b.orientation = c
+            .orientation
+            .iter()
+            .map(|q| Orientation::new_unchecked(nalgebra::Quaternion::new(q[0], q[1], q[2], q[3])))
+            .collect();
+        b.momentum = unpack_all(&c.momentum);
+        b.force = unpack_all(&c.force);
+        b.torque = unpack_all(&c.torque);
+    }
+
+    fn pairs_from(&mut self, c: &Checkpoint) -> Result<(), DemError> {
         for (a, b, h) in &c.pairs {
-            let Some(p) = dem.list.position(*a, *b) else {
+            let Some(p) = self.list.position(*a, *b) else {
                 return Err(DemError::Checkpoint {
                     what: "a touching pair's member",
                     found: *b as usize,
@@ -208,15 +228,20 @@ impl Dem {
                 });
             };
             let (history, rolling) = unpack_history(h);
-            dem.pairs.history[p] = history;
-            if let Some(r) = dem.pairs.rolling.get_mut(p) {
+            self.pairs.history[p] = history;
+            if let Some(r) = self.pairs.rolling.get_mut(p) {
                 *r = rolling;
             }
-            dem.pairs.touching[p] = true;
+            self.pairs.touching[p] = true;
         }
+        Ok(())
+    }
+
+    fn wall_contacts_from(&mut self, c: &Checkpoint) -> Result<(), DemError> {
+        let expected = self.bodies.len();
         for PlainWallContact { member, wall, feature, image, normal, overlap, history } in &c.walls {
-            let entry = dem.near_of.get(*member as usize).copied().unwrap_or(u32::MAX);
-            let Some(n) = dem.near.get_mut(entry as usize) else {
+            let entry = self.near_of.get(*member as usize).copied().unwrap_or(u32::MAX);
+            let Some(n) = self.near.get_mut(entry as usize) else {
                 return Err(DemError::Checkpoint {
                     what: "a wall contact's member",
                     found: *member as usize,
@@ -236,6 +261,6 @@ impl Dem {
                 rolling,
             });
         }
-        Ok(dem)
+        Ok(())
     }
 }

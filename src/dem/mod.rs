@@ -44,7 +44,7 @@ pub use bodies::Bodies;
 pub use build::shortest_contact;
 pub use checkpoint::Checkpoint;
 pub use clump::{Clump, InertiaRule, Sphere};
-pub use contact::{Mutant, restitution};
+pub use contact::{ContactEquations, StandardContact, restitution};
 pub use energy::{Energies, Ledger};
 pub use error::DemError;
 pub use integrate::Integrator;

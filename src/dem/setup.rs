@@ -1,6 +1,5 @@
 //! What a run of grains consists of.
 
-use super::contact::Mutant;
 use super::{Clump, Integrator, Materials, Orientation, V3, Wall};
 use serde::{Deserialize, Serialize};
 
@@ -106,9 +105,6 @@ pub struct Setup {
     pub start_overlap: f64,
     /// Whether single spheres turn their orientation too (only output needs it).
     pub turn_spheres: bool,
-    /// Wrong physics for tests.
-    #[doc(hidden)]
-    pub mutant: Mutant,
 }
 
 impl Setup {
@@ -129,7 +125,6 @@ impl Setup {
             overlap_limit: 0.2,
             start_overlap: 1e-9,
             turn_spheres: false,
-            mutant: Mutant::None,
         }
     }
 }

@@ -1,16 +1,15 @@
 //! A run of grains.
 
 use super::bodies::{Bodies, Member};
-use super::contact::pass::{self, PairState};
-use super::contact::{Losses, Mutant, NoCap, Physics, ReversedProduct, SpringNotRotated, Standard};
-use super::integrate::Integrator;
-use super::integrate::gear::Gear;
-use super::integrate::verlet::{self, External, Step};
+use super::contact::pass::{self, Inputs, PairState};
+use super::contact::{ContactEquations, Losses, StandardContact};
+use super::integrate::gear::{self, Gear};
+use super::integrate::{External, Integrator, Step, verlet};
 use super::material::PairTable;
 use super::neighbours::PairList;
-use super::setup::Period;
+use super::setup::{Period, Shape};
 use super::walls::pass::{self as wall_pass, NearWall, Scenery};
-use super::{DemError, Setup, V3};
+use super::{DemError, V3};
 use rayon::prelude::*;
 
 /// Members per task at least.
@@ -34,12 +33,11 @@ pub struct Dem {
     /// Member positions when the lists were made.
     pub(super) reference: Vec<V3>,
     pub(super) external: External,
-    pub(super) gear: Option<(Vec<Gear>, Vec<Gear>)>,
+    pub(super) gear: Option<gear::Derivatives>,
     pub(super) step_setting: Step,
     pub(super) integrator: Integrator,
     pub(super) skin: f64,
     pub(super) overlap_limit: f64,
-    pub(super) mutant: Mutant,
     pub(super) steps: u64,
     pub(super) rates: Losses,
     pub(super) lost: Losses,
@@ -48,46 +46,34 @@ pub struct Dem {
 }
 
 impl Dem {
-    /// Checks a set-up and finds the forces at the start.
-    ///
-    /// # Errors
-    /// Everything [`DemError`] lists as bad input.
-    pub fn new(setup: &Setup) -> Result<Self, DemError> {
-        let mut dem = super::build::build(setup)?;
-        dem.renew_lists();
-        dem.check_start(setup)?;
-        dem.forces(0.0)?;
-        dem.rates = dem.rates_now();
-        dem.start_gear();
-        Ok(dem)
-    }
-
     /// Advances by `n` steps.
     ///
     /// # Errors
     /// Too much overlap, a state that is not finite, a spin too fast for the step.
     pub fn step(&mut self, n: u64) -> Result<(), DemError> {
+        self.step_with(StandardContact, n)
+    }
+
+    /// As [`Dem::step`], with other equations of contact; see [`Dem::with_equations`].
+    ///
+    /// # Errors
+    /// Too much overlap, a state that is not finite, a spin too fast for the step.
+    pub fn step_with(&mut self, equations: impl ContactEquations, n: u64) -> Result<(), DemError> {
+        let mut steps = || (0..n).try_for_each(|_| self.one_step(equations));
         if rayon::current_thread_index().is_none() {
             // A caller outside the pool would be handed over to it, and back, at every pass of every step.
-            return rayon::scope(|_| self.steps_here(n));
+            return rayon::scope(|_| steps());
         }
-        self.steps_here(n)
+        steps()
     }
 
-    fn steps_here(&mut self, n: u64) -> Result<(), DemError> {
-        for _ in 0..n {
-            self.one_step()?;
-        }
-        Ok(())
-    }
-
-    fn one_step(&mut self) -> Result<(), DemError> {
+    fn one_step(&mut self, equations: impl ContactEquations) -> Result<(), DemError> {
         self.steps += 1;
         let dt = self.step_setting.dt;
         let start_rate = self.outside_rate();
         let spun = match &mut self.gear {
             None => verlet::drift(&mut self.bodies, &self.external, &self.step_setting),
-            Some(state) => verlet::predict(&mut self.bodies, state, &self.step_setting),
+            Some(state) => gear::predict(&mut self.bodies, state, &self.step_setting),
         };
         if let Some(grain) = spun {
             let spin = self.bodies.spin[grain].norm();
@@ -104,7 +90,7 @@ impl Dem {
             self.renew_lists();
         }
         let before = self.rates;
-        self.forces(dt)?;
+        self.forces(equations, dt)?;
         self.rates = self.rates_now();
         for (sum, (a, b)) in [
             (&mut self.lost.normal, (before.normal, self.rates.normal)),
@@ -163,53 +149,52 @@ impl Dem {
     }
 
     /// Forces at the present places, and the second half of the step; `dt = 0` only finds the forces.
-    fn forces(&mut self, dt: f64) -> Result<(), DemError> {
-        match self.mutant {
-            Mutant::None => self.forces_with(Standard, dt),
-            Mutant::SpringNotRotated => self.forces_with(SpringNotRotated, dt),
-            Mutant::NoCoulombCap => self.forces_with(NoCap, dt),
-            Mutant::ReversedProduct => self.forces_with(ReversedProduct, dt),
-        }
-    }
-
-    fn forces_with<P: Physics>(&mut self, physics: P, dt: f64) -> Result<(), DemError> {
-        let limit = self.overlap_limit;
-        let (losses, deep) =
-            pass::run(physics, &self.table, &self.members, &self.list, &mut self.pairs, dt, limit);
+    pub(super) fn forces(&mut self, equations: impl ContactEquations, dt: f64) -> Result<(), DemError> {
+        let inputs = Inputs { table: &self.table, members: &self.members, dt, limit: self.overlap_limit };
+        let (losses, deep) = pass::run(equations, &inputs, &self.list, &mut self.pairs);
         if let Some(p) = deep {
             return Err(self.too_deep(p));
         }
-        let (wall_losses, deep) =
-            wall_pass::run(physics, &self.table, &self.members, &self.scenery, &mut self.near, dt, limit);
+        let (wall_losses, deep) = wall_pass::run(equations, &inputs, &self.scenery, &mut self.near);
         if let Some(n) = deep {
             return Err(self.too_deep_in_wall(n));
         }
         self.rates = losses;
         self.rates.add(&wall_losses);
-        let (members, list, pairs, near, near_of) =
-            (&self.members, &self.list, &self.pairs, &self.near, &self.near_of);
-        let first = std::mem::take(&mut self.bodies.first_member);
-        let found = |i: usize, x: &V3| gather(i, x, &first, members, list, pairs, near, near_of);
-        let lost = match &mut self.gear {
-            Some(state) if dt > 0.0 => verlet::correct_gear(
-                &mut self.bodies,
-                state,
-                &self.external,
-                &self.step_setting,
-                self.integrator,
-                found,
-            ),
-            _ => verlet::correct(&mut self.bodies, dt, found),
-        };
-        self.bodies.first_member = first;
-        match lost {
+        match self.correct(dt) {
             None => Ok(()),
             Some(grain) => Err(DemError::NotFinite { step: self.steps, time_s: self.time(), grain }),
         }
     }
 
+    /// The second half of the step with the forces just found.
+    ///
+    /// # Returns
+    /// The first body whose state is not finite.
+    fn correct(&mut self, dt: f64) -> Option<usize> {
+        let first = std::mem::take(&mut self.bodies.first_member);
+        let forces = Forces {
+            first: &first,
+            members: &self.members,
+            list: &self.list,
+            pairs: &self.pairs,
+            near: &self.near,
+            near_of: &self.near_of,
+        };
+        let found = |i: usize, x: &V3| forces.on_body(i, x);
+        let lost = match &mut self.gear {
+            Some(state) if dt > 0.0 => {
+                let kind = self.integrator;
+                gear::correct(&mut self.bodies, state, &self.external, &self.step_setting, kind, found)
+            }
+            _ => verlet::correct(&mut self.bodies, dt, found),
+        };
+        self.bodies.first_member = first;
+        lost
+    }
+
     /// The rates of this step with the share of driven bodies.
-    fn rates_now(&self) -> Losses {
+    pub(super) fn rates_now(&self) -> Losses {
         let mut r = self.rates;
         for &i in &self.bodies.driven {
             let i = i as usize;
@@ -239,7 +224,7 @@ impl Dem {
             Gear::start(b.position[i], b.velocity[i], a, s.dt)
         };
         let turn = |i: usize| {
-            if b.shape[i] == super::bodies::SPHERE {
+            if b.shape[i] == Shape::Sphere {
                 Gear::start(V3::zeros(), b.spin[i], b.torque[i] * b.inverse_inertia[i].x, s.dt)
             } else {
                 Gear::start(V3::zeros(), b.momentum[i], b.torque[i], s.dt)
@@ -293,7 +278,7 @@ impl Dem {
 pub(super) fn place(m: &mut Member, b: &Bodies, offset: &V3) {
     let i = m.body as usize;
     m.spin = b.spin[i];
-    if b.shape[i] == super::bodies::SPHERE {
+    if b.shape[i] == Shape::Sphere {
         m.position = b.position[i];
         m.velocity = b.velocity[i];
     } else {
@@ -303,24 +288,37 @@ pub(super) fn place(m: &mut Member, b: &Bodies, offset: &V3) {
     }
 }
 
-/// Contact force and torque on body `i`: members in order, and for each member its partners in order, then walls.
-#[allow(clippy::too_many_arguments)]
-#[inline]
-fn gather(
-    i: usize,
-    centre: &V3,
-    first: &[u32],
-    members: &[Member],
-    list: &PairList,
-    pairs: &PairState,
-    near: &[NearWall],
-    near_of: &[u32],
-) -> (V3, V3) {
-    let (mut force, mut torque) = (V3::zeros(), V3::zeros());
-    let (from, to) = (first[i] as usize, first[i + 1] as usize);
-    for k in from..to {
+/// The forces that the passes over pairs and walls have found.
+struct Forces<'a> {
+    /// First member of each body, and the number of all members at the end.
+    first: &'a [u32],
+    members: &'a [Member],
+    list: &'a PairList,
+    pairs: &'a PairState,
+    near: &'a [NearWall],
+    near_of: &'a [u32],
+}
+
+impl Forces<'_> {
+    /// Contact force and torque on body `i`: members in order, and for each member its partners in order, then walls.
+    #[inline]
+    fn on_body(&self, i: usize, centre: &V3) -> (V3, V3) {
+        let (mut force, mut torque) = (V3::zeros(), V3::zeros());
+        let (from, to) = (self.first[i] as usize, self.first[i + 1] as usize);
+        for k in from..to {
+            let (f, t) = self.on_member(k);
+            force += f;
+            torque += if to - from == 1 { t } else { t + (self.members[k].position - centre).cross(&f) };
+        }
+        (force, torque)
+    }
+
+    /// Contact force on a member, and torque about its own centre.
+    #[inline]
+    fn on_member(&self, k: usize) -> (V3, V3) {
+        let Self { list, pairs, .. } = self;
         let (mut f, mut t) = (V3::zeros(), V3::zeros());
-        let radius = members[k].radius;
+        let radius = self.members[k].radius;
         for &p in &list.back[list.back_row[k] as usize..list.back_row[k + 1] as usize] {
             if pairs.touching[p as usize] {
                 f -= pairs.force[p as usize].force;
@@ -339,13 +337,11 @@ fn gather(
                 }
             }
         }
-        if near_of[k] != u32::MAX {
-            let n = &near[near_of[k] as usize];
+        if self.near_of[k] != u32::MAX {
+            let n = &self.near[self.near_of[k] as usize];
             f += n.force;
             t += n.torque;
         }
-        force += f;
-        torque += if to - from == 1 { t } else { t + (members[k].position - centre).cross(&f) };
+        (f, t)
     }
-    (force, torque)
 }

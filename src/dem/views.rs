@@ -43,17 +43,6 @@ impl Dem {
         (f, t)
     }
 
-    /// Gives a body a new velocity and spin (the books take it as a new start of its kinetic energy).
-    pub fn set_motion(&mut self, i: usize, velocity: V3, spin: V3) {
-        self.bodies.velocity[i] = velocity;
-        self.bodies.spin[i] = spin;
-        self.bodies.momentum[i] =
-            super::rotation::momentum_of(&self.bodies.orientation[i], &self.bodies.inertia[i], &spin);
-        if self.gear.is_some() {
-            self.start_gear();
-        }
-    }
-
     /// Steps done.
     pub fn steps(&self) -> u64 {
         self.steps
@@ -107,11 +96,6 @@ impl Dem {
             let d = self.members[a as usize].position - self.members[b as usize].position - shift;
             (a as usize, b as usize, d)
         })
-    }
-
-    /// Changes gravity, m/s² (the potential energy of the books changes with it).
-    pub fn set_gravity(&mut self, gravity: V3) {
-        self.step_setting.gravity = gravity;
     }
 
     /// Members near walls with their contacts, in the order of the members.

@@ -2,6 +2,7 @@
 
 use super::polygon;
 use super::shape::{Axis, Bounds, Shape};
+use crate::vector::{dot, norm, sub};
 
 /// Subsamples per axis of a cell that a curved or oblique surface cuts. Even, so that the points are
 /// symmetric about the cell centre and none lies on it.
@@ -185,18 +186,6 @@ fn split(r: [f64; 3], direction: [f64; 3]) -> (f64, f64) {
     let along = dot(r, direction) / norm(direction);
     let square = dot(r, r) - along * along;
     (along, if square > 0.0 { square.sqrt() } else { 0.0 })
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn norm(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
-}
-
-fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
 }
 
 fn least(a: f64, b: f64) -> f64 {

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::heightfield::Heightfield;
 use super::polygon;
+use crate::vector::{dot, norm, sub};
 
 /// A coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -167,7 +168,7 @@ impl Shape {
             Self::Box { min_m, max_m } => (0..3).all(|a| min_m[a] <= p[a] && p[a] < max_m[a]),
             Self::Cylinder { point_m, direction, radius_m, length_m } => {
                 let r = sub(p, *point_m);
-                let along = dot(r, *direction) / dot(*direction, *direction).sqrt();
+                let along = dot(r, *direction) / norm(*direction);
                 let within = length_m.is_none_or(|length| 0.0 <= along && along < length);
                 within && dot(r, r) - along * along < radius_m * radius_m
             }
@@ -273,7 +274,7 @@ fn half_space_bounds(point: [f64; 3], normal: [f64; 3]) -> Bounds {
 }
 
 fn cylinder_bounds(point: [f64; 3], direction: [f64; 3], radius: f64, length: Option<f64>) -> Bounds {
-    let norm = dot(direction, direction).sqrt();
+    let norm = norm(direction);
     let unit = direction.map(|d| d / norm);
     let Some(length) = length else {
         // Without an end, only the axes normal to the direction are bounded.
@@ -289,14 +290,6 @@ fn cylinder_bounds(point: [f64; 3], direction: [f64; 3], radius: f64, length: Op
         min: std::array::from_fn(|a| (if end[a] < point[a] { end[a] } else { point[a] }) - half_width[a]),
         max: std::array::from_fn(|a| (if end[a] > point[a] { end[a] } else { point[a] }) + half_width[a]),
     }
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 //! tetrahedra: each cube of eight points is cut into six tetrahedra around its diagonal, in the same way
 //! in every cube, so that the surface has no holes.
 
+use crate::vector::{cross, dot, sub};
 use std::collections::HashMap;
 
 /// Values and vectors at the points of a grid; x fastest.
@@ -83,7 +84,7 @@ impl Builder<'_> {
             let step = sub(self.position(outside), self.position(inside));
             std::array::from_fn(|a| sum[a] + step[a])
         });
-        let turned = normal[0] * out[0] + normal[1] * out[1] + normal[2] * out[2] < 0.0;
+        let turned = dot(normal, out) < 0.0;
         self.mesh.triangles.push(if turned { [corners[0], corners[2], corners[1]] } else { corners });
     }
 
@@ -117,21 +118,9 @@ impl Mesh {
     #[must_use]
     pub fn volume(&self) -> f64 {
         let corner = |c: u32| self.points[c as usize];
-        let six = self.triangles.iter().map(|&[a, b, c]| {
-            let n = cross(corner(b), corner(c));
-            let p = corner(a);
-            p[0] * n[0] + p[1] * n[1] + p[2] * n[2]
-        });
+        let six = self.triangles.iter().map(|&[a, b, c]| dot(corner(a), cross(corner(b), corner(c))));
         six.sum::<f64>() / 6.0
     }
-}
-
-fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]

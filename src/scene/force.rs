@@ -2,6 +2,7 @@
 
 use super::{BodyForce, Gravity, Scene};
 use crate::geometry::Axis;
+pub use crate::vector::norm;
 
 /// Gravity's force per volume, N/m³: ρ0 g.
 #[must_use]
@@ -90,10 +91,4 @@ pub fn up(scene: &Scene) -> (Axis, bool) {
         }
     }
     (strongest.0, strongest.1 <= 0.0)
-}
-
-/// Euclidean length.
-#[must_use]
-pub fn norm(v: [f64; 3]) -> f64 {
-    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }

@@ -14,6 +14,7 @@ pub use suspension::Suspension;
 use crate::collision::CollisionChoice;
 use crate::rheology::Law;
 pub use crate::rheology::YieldTreatment;
+use crate::vector::norm;
 
 /// What happens to populations that would arrive through one face of the box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -334,7 +335,6 @@ impl BodyForce {
     /// Largest magnitude the force reaches, lattice units.
     #[must_use]
     pub fn largest(&self) -> f64 {
-        let norm = |f: [f64; 3]| ((f[0] * f[0] + f[1] * f[1]) + f[2] * f[2]).sqrt();
         match *self {
             Self::Constant(force) => norm(force),
             Self::Oscillating { mean, amplitude, .. } => norm(mean) + norm(amplitude),

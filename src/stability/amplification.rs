@@ -1,8 +1,7 @@
 //! One linearised step: exact Jacobian of a collision kernel times the phase of streaming.
 
-use faer::{Mat, c64};
-
 use super::StabilityError;
+use super::eigenvalues::{C64, Matrix, eigenvalues, modulus};
 use crate::collision::Collision;
 use crate::lane::Dual;
 use crate::lattice::equilibrium::equilibrium;
@@ -73,30 +72,28 @@ impl Linearised {
     /// # Verified by
     /// Claim `neumann-noise-evolution`.
     #[must_use]
-    pub fn amplification(&self, k: [f64; 3]) -> Mat<c64> {
+    pub fn amplification(&self, k: [f64; 3]) -> Matrix {
         let phase = phases(k);
-        Mat::from_fn(Q, Q, |i, j| phase[i] * self.jacobian[i][j])
+        std::array::from_fn(|i| std::array::from_fn(|j| phase[i] * self.jacobian[i][j]))
     }
 
     /// Largest modulus of an eigenvalue of M(k).
     ///
     /// # Errors
-    /// The eigenvalues did not converge, or the matrix is not finite.
+    /// The matrix is not finite.
     pub fn spectral_radius(&self, k: [f64; 3]) -> Result<f64, StabilityError> {
-        let eigenvalues = self
-            .amplification(k)
-            .eigenvalues()
-            .map_err(|_| StabilityError::Eigenvalues { velocity: self.velocity, wave: k })?;
-        Ok(eigenvalues.iter().map(|l| (l.re * l.re + l.im * l.im).sqrt()).fold(0.0, f64::max))
+        let found = eigenvalues(&self.amplification(k))
+            .ok_or(StabilityError::Eigenvalues { velocity: self.velocity, wave: k })?;
+        Ok(found.into_iter().map(modulus).fold(0.0, f64::max))
     }
 }
 
 /// exp(−i k·c_i).
 #[must_use]
-pub fn phases(k: [f64; 3]) -> [c64; Q] {
-    let axis: [[c64; 3]; 3] = std::array::from_fn(|a| {
+pub fn phases(k: [f64; 3]) -> [C64; Q] {
+    let axis: [[C64; 3]; 3] = std::array::from_fn(|a| {
         let (s, c) = (libm::sin(k[a]), libm::cos(k[a]));
-        [c64::new(c, s), c64::new(1.0, 0.0), c64::new(c, -s)]
+        [C64::new(c, s), C64::new(1.0, 0.0), C64::new(c, -s)]
     });
     std::array::from_fn(|i| {
         let factor = |a: usize| axis[a][(C[i][a] + 1) as usize];

@@ -2,26 +2,24 @@
 
 use std::f64::consts::PI;
 
-use faer::c64;
 use rayon::prelude::*;
 
-use super::{Linearised, phases};
+use super::Linearised;
+use super::eigenvalues::{C64, Matrix, ZERO};
 use crate::lattice::Q;
 
 /// Fourier amplitudes of the nineteen populations, one entry per wave of a cubic periodic box.
 #[derive(Clone, Debug)]
 pub struct Spectrum {
     cells: usize,
-    amplitudes: Vec<[c64; Q]>,
+    amplitudes: Vec<[C64; Q]>,
 }
-
-type Matrix = [[c64; Q]; Q];
 
 impl Spectrum {
     /// Discrete Fourier transform of `populations` (x fastest) in a box of `cells`³.
     #[must_use]
     pub fn of(populations: &[[f64; Q]], cells: usize) -> Self {
-        let mut amplitudes: Vec<[c64; Q]> = populations.iter().map(|h| h.map(|x| c64::new(x, 0.0))).collect();
+        let mut amplitudes: Vec<[C64; Q]> = populations.iter().map(|h| h.map(|x| C64::new(x, 0.0))).collect();
         for stride in [1, cells, cells * cells] {
             transform(&mut amplitudes, cells, stride);
         }
@@ -32,7 +30,7 @@ impl Spectrum {
     /// conserved totals, is left out.
     #[must_use]
     pub fn norm(&self) -> f64 {
-        let square = |a: &[c64; Q]| a.iter().fold(0.0, |s, x| s + (x.re * x.re + x.im * x.im));
+        let square = |a: &[C64; Q]| a.iter().fold(0.0, |s, x| s + (x.re * x.re + x.im * x.im));
         let sum = self.amplitudes.iter().skip(1).fold(0.0, |s, a| s + square(a));
         sum.sqrt() / self.amplitudes.len() as f64
     }
@@ -51,7 +49,7 @@ impl Spectrum {
             .map(|at| {
                 let index = [at % n, (at / n) % n, at / (n * n)];
                 let k = index.map(|i| 2.0 * PI * i as f64 / n as f64);
-                let step = power(&amplification(linearised, k), interval);
+                let step = power(&linearised.amplification(k), interval);
                 let mut a = self.amplitudes[at];
                 (0..count)
                     .map(|_| {
@@ -68,17 +66,17 @@ impl Spectrum {
 }
 
 /// In-place naive Fourier transform of all lines of one axis.
-fn transform(amplitudes: &mut [[c64; Q]], n: usize, stride: usize) {
-    let root: Vec<c64> = (0..n)
+fn transform(amplitudes: &mut [[C64; Q]], n: usize, stride: usize) {
+    let root: Vec<C64> = (0..n)
         .map(|i| {
             let angle = -2.0 * PI * i as f64 / n as f64;
-            c64::new(libm::cos(angle), libm::sin(angle))
+            C64::new(libm::cos(angle), libm::sin(angle))
         })
         .collect();
-    let mut line = vec![[c64::new(0.0, 0.0); Q]; n];
+    let mut line = vec![[ZERO; Q]; n];
     for start in (0..amplitudes.len()).filter(|at| (at / stride).is_multiple_of(n)) {
         for (k, out) in line.iter_mut().enumerate() {
-            *out = [c64::new(0.0, 0.0); Q];
+            *out = [ZERO; Q];
             for i in 0..n {
                 let factor = root[(k * i) % n];
                 for (out, x) in out.iter_mut().zip(amplitudes[start + i * stride]) {
@@ -92,17 +90,12 @@ fn transform(amplitudes: &mut [[c64; Q]], n: usize, stride: usize) {
     }
 }
 
-fn amplification(linearised: &Linearised, k: [f64; 3]) -> Matrix {
-    let phase = phases(k);
-    std::array::from_fn(|i| std::array::from_fn(|j| phase[i] * linearised.jacobian()[i][j]))
-}
-
-fn apply(m: &Matrix, a: &[c64; Q]) -> [c64; Q] {
-    std::array::from_fn(|i| (0..Q).fold(c64::new(0.0, 0.0), |s, j| s + m[i][j] * a[j]))
+fn apply(m: &Matrix, a: &[C64; Q]) -> [C64; Q] {
+    std::array::from_fn(|i| (0..Q).fold(ZERO, |s, j| s + m[i][j] * a[j]))
 }
 
 fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    let mut out = [[c64::new(0.0, 0.0); Q]; Q];
+    let mut out = [[ZERO; Q]; Q];
     for i in 0..Q {
         for j in 0..Q {
             let factor = a[i][j];

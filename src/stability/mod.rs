@@ -7,6 +7,7 @@
 //! pass unnoticed in a short run.
 
 mod amplification;
+pub mod eigenvalues;
 mod evolution;
 mod search;
 pub mod table;
@@ -24,7 +25,7 @@ pub const GROWTH_TOLERANCE: f64 = 1e-8;
 /// Why an analysis failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StabilityError {
-    /// faer found no eigenvalues.
+    /// The matrix of a step has no eigenvalues.
     #[error("no eigenvalues for velocity {velocity:?} and wave vector {wave:?}: the matrix is not finite")]
     Eigenvalues {
         /// Velocity of the uniform flow, lattice units.
@@ -58,19 +59,6 @@ pub fn growth<O: Collision>(
 ) -> Result<f64, StabilityError> {
     check_tau(tau)?;
     Ok(Linearised::about(collision, tau, u).spectral_radius(k)? - 1.0)
-}
-
-/// Largest growth over all waves in uniform flow u, with the wave that has it.
-///
-/// # Errors
-/// τ⁺ is not above ½, or the eigenvalues did not converge.
-pub fn spectral_radius_max<O: Collision>(
-    collision: &O,
-    tau: f64,
-    u: [f64; 3],
-) -> Result<Peak, StabilityError> {
-    check_tau(tau)?;
-    peak(&Linearised::about(collision, tau, u), &Search::THOROUGH)
 }
 
 /// The largest speed at which uniform flow is stable, whatever its direction.

@@ -66,8 +66,6 @@ impl Search {
     pub const SMOOTH: Self = Self { grids: &[16, 22], starts: 16 };
     /// For tables: a few seconds per entry.
     pub const THOROUGH: Self = Self { grids: &[16, 22, 34, 46], starts: 16 };
-    /// For showing how much a table still depends on the search.
-    pub const EXHAUSTIVE: Self = Self { grids: &[16, 22, 34, 46, 70], starts: 24 };
     /// For a single limit while a user waits: a fraction of a second per entry.
     pub const QUICK: Self = Self { grids: &[12, 18], starts: 12 };
 }

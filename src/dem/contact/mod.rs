@@ -15,8 +15,9 @@ use super::V3;
 use super::material::{Compiled, PairLaw};
 use friction::{Slider, slide};
 
-/// The three statements of contact mechanics that wrong variants in tests replace.
-pub trait Physics: Copy + Send + Sync {
+/// The three statements of contact mechanics that a run can be made with others of: a harness that shows that it
+/// would notice a wrong one implements them so. They are compiled into the kernel, and cost nothing.
+pub trait ContactEquations: Copy + Send + Sync {
     /// Turns a vector of the old contact plane (normal `n0`) into the new one (normal `n`), with the twist
     /// angle `twist` (rad) about the normal.
     ///
@@ -44,54 +45,10 @@ pub trait Physics: Copy + Send + Sync {
     }
 }
 
-/// The right physics.
+/// The equations as they should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Standard;
-impl Physics for Standard {}
-
-/// The tangential spring is left where it was when the contact turns.
-#[derive(Debug, Clone, Copy)]
-pub struct SpringNotRotated;
-impl Physics for SpringNotRotated {
-    #[inline(always)]
-    fn rotate_spring(&self, s: &V3, _: &V3, _: &V3, _: f64) -> V3 {
-        *s
-    }
-}
-
-/// No Coulomb cap.
-#[derive(Debug, Clone, Copy)]
-pub struct NoCap;
-impl Physics for NoCap {
-    #[inline(always)]
-    fn friction_cap(&self, friction: f64, _: f64) -> f64 {
-        if friction > 0.0 { f64::MAX } else { 0.0 }
-    }
-}
-
-/// The product of 004 Eq 3.38 as printed, u = v + r × ω.
-#[derive(Debug, Clone, Copy)]
-pub struct ReversedProduct;
-impl Physics for ReversedProduct {
-    #[inline(always)]
-    fn surface_velocity(&self, v: &V3, omega: &V3, r: &V3) -> V3 {
-        v + r.cross(omega)
-    }
-}
-
-/// Which physics a run uses; anything but `None` is wrong on purpose and exists for tests.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Mutant {
-    /// The right physics.
-    #[default]
-    None,
-    /// See [`SpringNotRotated`].
-    SpringNotRotated,
-    /// See [`NoCap`].
-    NoCoulombCap,
-    /// See [`ReversedProduct`].
-    ReversedProduct,
-}
+pub struct StandardContact;
+impl ContactEquations for StandardContact {}
 
 /// Where two surfaces meet.
 #[derive(Debug, Clone, Copy)]
@@ -234,22 +191,40 @@ pub fn elastic_energy(law: &PairLaw, g: &Geometry) -> f64 {
     }
 }
 
+/// A contact in one step.
+#[derive(Debug, Clone, Copy)]
+pub struct Contact<'a> {
+    /// The pair's constants.
+    pub law: &'a PairLaw,
+    /// Where the surfaces meet.
+    pub geometry: Geometry,
+    /// How they move.
+    pub motion: Motion,
+    /// Time since the last step, s.
+    pub dt: f64,
+}
+
+/// What a contact remembers, and the books it writes to.
+#[derive(Debug)]
+pub struct Memory<'a> {
+    /// Of the tangential spring.
+    pub history: &'a mut History,
+    /// Of the rolling spring; untouched without rolling resistance.
+    pub rolling: &'a mut Rolling,
+    /// Where losses are added.
+    pub losses: &'a mut Losses,
+}
+
 /// Force of a contact, \[D1\] and \[D2\]; moves its history on by one step.
 ///
+/// # Arguments
+/// `equations`: [`StandardContact`] but for trials. `memory`: of this contact.
 /// # Source
 /// DESIGN \[D1\], \[D2\]; 000 Sec 2.1.
-#[allow(clippy::too_many_arguments)]
 #[inline(always)]
-pub fn react<P: Physics>(
-    physics: &P,
-    law: &PairLaw,
-    g: &Geometry,
-    m: &Motion,
-    dt: f64,
-    h: &mut History,
-    rolling: &mut Rolling,
-    losses: &mut Losses,
-) -> Reaction {
+pub fn react<E: ContactEquations>(equations: &E, contact: &Contact, memory: Memory) -> Reaction {
+    let Contact { law, geometry: g, motion: m, .. } = contact;
+    let Memory { history, rolling, losses } = memory;
     let n = normal_terms(law, g);
     let speed = -m.slip.dot(&g.normal); // rate of the overlap
     let wished = n.elastic + n.damping * speed;
@@ -257,46 +232,116 @@ pub fn react<P: Physics>(
     losses.normal += (force - n.elastic) * speed;
     let mut out = Reaction { normal: force, ..Reaction::default() };
     if law.friction > 0.0 {
-        let twist = dt * m.mean_spin.dot(&g.normal);
-        let old = h.root > 0.0;
+        let carried = Carried::over(equations, contact, history, &n);
+        let cap = equations.friction_cap(law.friction, force);
+        out.tangential = carried.friction(contact, &n, cap, history, losses);
+        if law.rolling > 0.0 {
+            out.rolling = carried.resistance(contact, &n, force, rolling, losses);
+        }
+    }
+    history.normal = g.normal;
+    history.root = n.root;
+    out
+}
+
+/// How springs come over from the last step.
+struct Carried<'a, E> {
+    equations: &'a E,
+    /// Normals then and now.
+    normals: [V3; 2],
+    /// Whether there was a contact.
+    old: bool,
+    /// Angle by which the pair has twisted about the normal, rad.
+    twist: f64,
+    /// Share of a spring's elongation that a change of stiffness leaves.
+    keep: f64,
+    /// Rate of the overlap, m/s.
+    speed: f64,
+    /// Of the tangential stiffness over itself, 1/s.
+    stiffness_rate: f64,
+}
+
+impl<'a, E: ContactEquations> Carried<'a, E> {
+    #[inline(always)]
+    fn over(equations: &'a E, contact: &Contact, history: &History, n: &Normal) -> Self {
+        let Contact { geometry: g, motion: m, dt, .. } = contact;
+        let speed = -m.slip.dot(&g.normal);
         // The tangential stiffness grows with sqrt(delta). Loading keeps the force, unloading keeps the
         // displacement, so that a change of stiffness never makes energy (Thornton, Cummins & Cleary 2013).
-        let ratio = h.root / n.root;
-        let keep = if ratio < 1.0 { ratio } else { 1.0 };
-        let stiffness_rate = if n.root == 1.0 { 0.0 } else { 0.5 * speed.abs() / g.overlap };
-        let carried = |s: &V3| {
-            if old { physics.rotate_spring(s, &h.normal, &g.normal, twist) * keep } else { V3::zeros() }
-        };
-        let slip = m.slip + g.normal * speed;
-        let mut s = Slider { spring: carried(&h.spring), force: h.force, keep, energy: 0.0 };
-        let cap = physics.friction_cap(law.friction, force);
-        let (t, rate, work) =
-            slide(&mut s, &slip, n.tangential_stiffness, law.tangential_damping * n.damping, cap, dt);
-        losses.tangential += rate + s.energy * stiffness_rate;
-        losses.slip += work;
-        out.tangential = t;
-        if law.rolling > 0.0 {
-            let arm2 = g.radius * g.radius;
-            // Twisting about the normal is resisted like rolling: without it a sphere on one contact spins for ever.
-            // The twist part of the spring stays along the normal as the contact turns.
-            let along = rolling.roll.dot(&h.normal);
-            let kept = if old { g.normal * (along * keep) } else { V3::zeros() };
-            let spring = carried(&(rolling.roll - h.normal * along)) + kept;
-            let mut r = Slider { spring, force: rolling.torque, keep, energy: 0.0 };
-            let stiffness = n.tangential_stiffness * arm2;
-            let damping = law.tangential_damping * n.damping * arm2;
-            let (t, rate, work) =
-                slide(&mut r, &m.relative_spin, stiffness, damping, law.rolling * g.radius * force, dt);
-            losses.rolling += rate + r.energy * stiffness_rate;
-            losses.roll_slip += work;
-            out.rolling = t;
-            rolling.roll = r.spring;
-            rolling.torque = r.force;
+        let ratio = history.root / n.root;
+        Self {
+            equations,
+            normals: [history.normal, g.normal],
+            old: history.root > 0.0,
+            twist: dt * m.mean_spin.dot(&g.normal),
+            keep: if ratio < 1.0 { ratio } else { 1.0 },
+            speed,
+            stiffness_rate: if n.root == 1.0 { 0.0 } else { 0.5 * speed.abs() / g.overlap },
         }
-        h.spring = s.spring;
-        h.force = s.force;
     }
-    h.normal = g.normal;
-    h.root = n.root;
-    out
+
+    /// A spring that lay in the old contact plane.
+    #[inline(always)]
+    fn spring(&self, s: &V3) -> V3 {
+        let [before, now] = &self.normals;
+        if self.old {
+            self.equations.rotate_spring(s, before, now, self.twist) * self.keep
+        } else {
+            V3::zeros()
+        }
+    }
+
+    /// Tangential force, N.
+    #[inline(always)]
+    fn friction(
+        &self,
+        contact: &Contact,
+        n: &Normal,
+        cap: f64,
+        history: &mut History,
+        losses: &mut Losses,
+    ) -> V3 {
+        let Contact { law, geometry: g, motion: m, dt } = contact;
+        let slip = m.slip + g.normal * self.speed;
+        let spring = self.spring(&history.spring);
+        let mut s = Slider { spring, force: history.force, keep: self.keep, energy: 0.0 };
+        let damping = law.tangential_damping * n.damping;
+        let (t, rate, work) = slide(&mut s, &slip, n.tangential_stiffness, damping, cap, *dt);
+        losses.tangential += rate + s.energy * self.stiffness_rate;
+        losses.slip += work;
+        history.spring = s.spring;
+        history.force = s.force;
+        t
+    }
+
+    /// Rolling torque, N m.
+    ///
+    /// Twisting about the normal is resisted like rolling: without it a sphere on one contact spins for ever.
+    /// The twist part of the spring stays along the normal as the contact turns.
+    #[inline(always)]
+    fn resistance(
+        &self,
+        contact: &Contact,
+        n: &Normal,
+        force: f64,
+        rolling: &mut Rolling,
+        losses: &mut Losses,
+    ) -> V3 {
+        let Contact { law, geometry: g, motion: m, dt } = contact;
+        let before = &self.normals[0];
+        let arm2 = g.radius * g.radius;
+        let along = rolling.roll.dot(before);
+        let kept = if self.old { g.normal * (along * self.keep) } else { V3::zeros() };
+        let spring = self.spring(&(rolling.roll - before * along)) + kept;
+        let mut r = Slider { spring, force: rolling.torque, keep: self.keep, energy: 0.0 };
+        let stiffness = n.tangential_stiffness * arm2;
+        let damping = law.tangential_damping * n.damping * arm2;
+        let cap = law.rolling * g.radius * force;
+        let (t, rate, work) = slide(&mut r, &m.relative_spin, stiffness, damping, cap, *dt);
+        losses.rolling += rate + r.energy * self.stiffness_rate;
+        losses.roll_slip += work;
+        rolling.roll = r.spring;
+        rolling.torque = r.force;
+        t
+    }
 }

@@ -1,6 +1,6 @@
 //! The pass over all pairs.
 
-use super::{Geometry, History, Losses, Motion, Physics, Rolling, react};
+use super::{Contact, ContactEquations, Geometry, History, Losses, Memory, Motion, Rolling, react};
 use crate::dem::V3;
 use crate::dem::bodies::Member;
 use crate::dem::material::PairTable;
@@ -98,18 +98,28 @@ fn open(touching: &mut bool, history: &mut History, rolling: Option<&mut Rolling
     }
 }
 
+/// What all pairs have in common in a step.
+#[derive(Debug, Clone, Copy)]
+pub struct Inputs<'a> {
+    /// Constants of the pairs of materials.
+    pub table: &'a PairTable,
+    /// All members where they are now.
+    pub members: &'a [Member],
+    /// Time since the last step, s.
+    pub dt: f64,
+    /// Largest overlap as a share of the smaller radius.
+    pub limit: f64,
+}
+
 /// Forces of all pairs; every pair writes to its own place, so threads cannot change a bit.
 ///
 /// # Returns
-/// The losses, and the first pair with more overlap than `limit` × the smaller radius.
-pub fn run<P: Physics>(
-    physics: P,
-    table: &PairTable,
-    members: &[Member],
+/// The losses, and the first pair with more overlap than [`Inputs::limit`] × the smaller radius.
+pub fn run<E: ContactEquations>(
+    equations: E,
+    inputs: &Inputs,
     list: &PairList,
     state: &mut PairState,
-    dt: f64,
-    limit: f64,
 ) -> (Losses, Option<usize>) {
     let n = list.pairs.len();
     state.blocks.clear();
@@ -130,54 +140,9 @@ pub fn run<P: Physics>(
         .into_par_iter()
         .enumerate()
         .for_each(|(block, (pairs, rolling, history, force, touching, sum))| {
-            let mut losses = Losses::default();
-            let apart = |k: usize| {
-                let (a, b) = pairs[k];
-                let d = members[a as usize].position - members[b as usize].position;
-                if list.shift.is_empty() { d } else { d - list.shift[block * BLOCK + k] }
-            };
-            // First who touches, then the forces: the second loop has no branch that depends on distance.
-            let mut close = [0u16; BLOCK];
-            let mut count = 0;
-            for k in 0..pairs.len() {
-                let reach = members[pairs[k].0 as usize].radius + members[pairs[k].1 as usize].radius;
-                close[count] = k as u16;
-                let near = apart(k).norm_squared() < reach * reach;
-                count += usize::from(near);
-                if touching[k] && !near {
-                    open(&mut touching[k], &mut history[k], rolling.get_mut(k), &mut losses);
-                }
-            }
-            for &k in &close[..count] {
-                let k = usize::from(k);
-                let (ia, ib) = pairs[k];
-                let (a, b) = (&members[ia as usize], &members[ib as usize]);
-                let Some((g, arm_a, arm_b)) = meet(a, b, &apart(k)) else {
-                    if touching[k] {
-                        open(&mut touching[k], &mut history[k], rolling.get_mut(k), &mut losses);
-                    }
-                    continue;
-                };
-                if g.overlap > limit * a.radius.min(b.radius) {
-                    sum.too_deep = sum.too_deep.min((block * BLOCK + k) as u32);
-                }
-                touching[k] = true;
-                let slip = physics.surface_velocity(&a.velocity, &a.spin, &(g.normal * -arm_a))
-                    - physics.surface_velocity(&b.velocity, &b.spin, &(g.normal * arm_b));
-                let motion =
-                    Motion { slip, relative_spin: a.spin - b.spin, mean_spin: (a.spin + b.spin) * 0.5 };
-                let law = table.law(a.material, b.material);
-                let mut none = Rolling::default();
-                let roll = rolling.get_mut(k).unwrap_or(&mut none);
-                let r = react(&physics, law, &g, &motion, dt, &mut history[k], roll, &mut losses);
-                force[k] = PairForce {
-                    force: g.normal * r.normal + r.tangential,
-                    lever: g.normal.cross(&r.tangential),
-                    half_overlap: 0.5 * g.overlap,
-                };
-                roll.moment = r.rolling;
-            }
-            sum.losses = losses;
+            let first = block * BLOCK;
+            let shift = list.shift.get(first..first + pairs.len()).unwrap_or_default();
+            *sum = Block { pairs, shift, rolling, history, force, touching }.run(&equations, inputs, first);
         });
     let mut total = Losses::default();
     let mut deep = u32::MAX;
@@ -186,4 +151,96 @@ pub fn run<P: Physics>(
         deep = deep.min(b.too_deep);
     }
     (total, (deep != u32::MAX).then_some(deep as usize))
+}
+
+/// Some pairs that follow each other in the list, with what belongs to them.
+struct Block<'a> {
+    pairs: &'a [(u32, u32)],
+    /// Empty without periodic axes.
+    shift: &'a [V3],
+    /// Empty without rolling resistance.
+    rolling: &'a mut [Rolling],
+    history: &'a mut [History],
+    force: &'a mut [PairForce],
+    touching: &'a mut [bool],
+}
+
+impl Block<'_> {
+    /// Forces of the block; `first`: number of its first pair.
+    #[inline(always)]
+    fn run<E: ContactEquations>(mut self, equations: &E, inputs: &Inputs, first: usize) -> BlockSum {
+        let mut sum = BlockSum { losses: Losses::default(), too_deep: u32::MAX };
+        // First who touches, then the forces: the second loop has no branch that depends on distance.
+        let mut close = [0u16; BLOCK];
+        let count = self.close(inputs, &mut close, &mut sum.losses);
+        for &k in &close[..count] {
+            let k = usize::from(k);
+            let (a, b) = self.pair(inputs, k);
+            let Some((g, arm_a, arm_b)) = meet(a, b, &self.apart(inputs, k)) else {
+                self.open(k, &mut sum.losses);
+                continue;
+            };
+            if g.overlap > inputs.limit * a.radius.min(b.radius) {
+                sum.too_deep = sum.too_deep.min((first + k) as u32);
+            }
+            self.touching[k] = true;
+            let slip = equations.surface_velocity(&a.velocity, &a.spin, &(g.normal * -arm_a))
+                - equations.surface_velocity(&b.velocity, &b.spin, &(g.normal * arm_b));
+            let motion = Motion { slip, relative_spin: a.spin - b.spin, mean_spin: (a.spin + b.spin) * 0.5 };
+            let law = inputs.table.law(a.material, b.material);
+            let contact = Contact { law, geometry: g, motion, dt: inputs.dt };
+            let mut none = Rolling::default();
+            let rolling = self.rolling.get_mut(k).unwrap_or(&mut none);
+            let memory =
+                Memory { history: &mut self.history[k], rolling: &mut *rolling, losses: &mut sum.losses };
+            let r = react(equations, &contact, memory);
+            rolling.moment = r.rolling;
+            self.force[k] = PairForce {
+                force: g.normal * r.normal + r.tangential,
+                lever: g.normal.cross(&r.tangential),
+                half_overlap: 0.5 * g.overlap,
+            };
+        }
+        sum
+    }
+
+    /// Which pairs may touch: their places in the block, and how many. Contacts that have opened are closed in the
+    /// books.
+    #[inline(always)]
+    fn close(&mut self, inputs: &Inputs, close: &mut [u16; BLOCK], losses: &mut Losses) -> usize {
+        let mut count = 0;
+        for k in 0..self.pairs.len() {
+            let (a, b) = self.pair(inputs, k);
+            let reach = a.radius + b.radius;
+            close[count] = k as u16;
+            let near = self.apart(inputs, k).norm_squared() < reach * reach;
+            count += usize::from(near);
+            if !near {
+                self.open(k, losses);
+            }
+        }
+        count
+    }
+
+    #[inline(always)]
+    fn pair<'s>(&self, inputs: &Inputs<'s>, k: usize) -> (&'s Member, &'s Member) {
+        let (a, b) = self.pairs[k];
+        (&inputs.members[a as usize], &inputs.members[b as usize])
+    }
+
+    /// Centre of the first less that of the second.
+    #[inline(always)]
+    fn apart(&self, inputs: &Inputs, k: usize) -> V3 {
+        let (a, b) = self.pair(inputs, k);
+        let d = a.position - b.position;
+        if self.shift.is_empty() { d } else { d - self.shift[k] }
+    }
+
+    /// A pair that does not touch: closes its books if it did.
+    #[inline(always)]
+    fn open(&mut self, k: usize, losses: &mut Losses) {
+        if self.touching[k] {
+            open(&mut self.touching[k], &mut self.history[k], self.rolling.get_mut(k), losses);
+        }
+    }
 }

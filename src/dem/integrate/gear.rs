@@ -2,7 +2,11 @@
 //!
 //! Fifth order only where the force is smooth and the start derivatives are exact; see the tables.
 
-use crate::dem::V3;
+use super::{External, Integrator, LEAST, Step, TooFast, outside};
+use crate::dem::bodies::Body;
+use crate::dem::rotation::{spin_of, turn};
+use crate::dem::{Bodies, Shape, V3};
+use rayon::prelude::*;
 
 /// Corrector coefficients of x₀ … x₅ for second-order equations; c₀ = 3/16 if forces depend on velocity.
 pub const CORRECTOR: [f64; 6] = [3.0 / 16.0, 251.0 / 360.0, 1.0, 11.0 / 18.0, 1.0 / 6.0, 1.0 / 60.0];
@@ -44,6 +48,103 @@ impl Gear {
         for k in 1..6 {
             self.0[k] += error * CORRECTOR[k];
         }
+    }
+}
+
+/// Gear's values of all bodies: of places, and of spins (of clumps: angular momenta).
+pub type Derivatives = (Vec<Gear>, Vec<Gear>);
+
+/// Gear's predictor for positions and spins (of clumps: angular momenta; their attitude turns freely at the mean
+/// momentum of the step, second order).
+///
+/// # Returns
+/// The first body whose free rotation did not converge.
+pub fn predict(b: &mut Bodies, state: &mut Derivatives, step: &Step) -> Option<usize> {
+    let (places, turns) = state;
+    (b.each(), places, turns)
+        .into_par_iter()
+        .enumerate()
+        .with_min_len(LEAST)
+        .filter_map(|(i, (body, place, angle))| predict_one(body, place, angle, step).is_err().then_some(i))
+        .min()
+}
+
+#[inline(always)]
+fn predict_one(body: Body, place: &mut Gear, angle: &mut Gear, step: &Step) -> Result<(), TooFast> {
+    let Step { dt, turn_spheres, .. } = *step;
+    let backwards = 1.0 / dt;
+    if *body.inverse_mass == 0.0 {
+        body.carry(step);
+        return Ok(());
+    }
+    place.predict();
+    *body.position = place.0[0];
+    *body.velocity = place.0[1] * backwards;
+    angle.predict();
+    let rate = angle.0[1] * backwards;
+    if *body.shape == Shape::Sphere {
+        if turn_spheres {
+            *body.orientation = turn(body.orientation, &((*body.spin + rate) * 0.5), dt);
+        }
+        *body.spin = rate;
+        return Ok(());
+    }
+    let mean = (*body.momentum + rate) * 0.5;
+    body.turn_clump(&mean, rate, dt)
+}
+
+/// Gear's corrector; `found(i, x)` gives the new contact force and torque of body i with its centre at x.
+///
+/// # Returns
+/// The first body whose state is not finite.
+pub fn correct<F>(
+    b: &mut Bodies,
+    state: &mut Derivatives,
+    external: &External,
+    step: &Step,
+    kind: Integrator,
+    found: F,
+) -> Option<usize>
+where
+    F: Fn(usize, &V3) -> (V3, V3) + Sync,
+{
+    let c0 = if kind == Integrator::GearConservative { CORRECTOR_0_CONSERVATIVE } else { CORRECTOR[0] };
+    let (places, turns) = state;
+    (b.each(), places, turns)
+        .into_par_iter()
+        .enumerate()
+        .with_min_len(LEAST)
+        .filter_map(|(i, (mut body, place, angle))| {
+            let (force, torque) = found(i, body.position);
+            if *body.inverse_mass > 0.0 {
+                let (fe, te) = outside(external, i);
+                correct_one(&mut body, (place, angle), (force + fe, torque + te), c0, step);
+            }
+            (!body.settle(force, torque)).then_some(i)
+        })
+        .min()
+}
+
+#[inline(always)]
+fn correct_one(
+    body: &mut Body,
+    (place, angle): (&mut Gear, &mut Gear),
+    (force, torque): (V3, V3),
+    c0: f64,
+    step: &Step,
+) {
+    let Step { dt, gravity, .. } = *step;
+    let backwards = 1.0 / dt;
+    place.correct(&(force * *body.inverse_mass + gravity), dt, c0);
+    *body.position = place.0[0];
+    *body.velocity = place.0[1] * backwards;
+    if *body.shape == Shape::Sphere {
+        angle.correct(&(torque * body.inverse_inertia.x), dt, c0);
+        *body.spin = angle.0[1] * backwards;
+    } else {
+        angle.correct(&torque, dt, c0);
+        *body.momentum = angle.0[1] * backwards;
+        *body.spin = spin_of(body.orientation, body.inverse_inertia, body.momentum);
     }
 }
 

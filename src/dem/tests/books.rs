@@ -126,22 +126,19 @@ fn balance_of_energy_driven() {
 /// Wrong contact physics leaves the books open however fine the step.
 #[test]
 fn mutants_caught_by_books() {
-    let open = |mutant| {
+    let open = |trial| {
         let mut s = cloud(150, PairProperties { rolling_friction: 0.0, ..all_on() });
-        s.mutant = mutant;
         s.steps_per_contact = 200.0;
-        let mut d = Dem::new(&s).unwrap();
+        let mut d = Dem::with_equations(&s, trial).unwrap();
         let start = d.energies().balance();
-        if d.step(16_000).is_err() {
+        if d.step_with(trial, 16_000).is_err() {
             return 1.0;
         }
         (d.energies().balance() / start - 1.0).abs()
     };
-    let right = open(contact::Mutant::None);
+    let right = open(Trial::Right);
     assert!(right < 1e-6, "{right}");
-    for m in
-        [contact::Mutant::SpringNotRotated, contact::Mutant::NoCoulombCap, contact::Mutant::ReversedProduct]
-    {
+    for m in [Trial::SpringNotRotated, Trial::NoCoulombCap, Trial::ReversedProduct] {
         let wrong = open(m);
         assert!(wrong > 20.0 * right, "{m:?}: {wrong} {right}");
     }

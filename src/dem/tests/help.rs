@@ -58,3 +58,35 @@ pub fn bounce(s: &Setup) -> (f64, f64, f64) {
     }
     ((d.bodies().velocity[1] - d.bodies().velocity[0]).x / v0, d.time(), deepest)
 }
+
+/// Contact mechanics with one statement wrong, or none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Trial {
+    Right,
+    SpringNotRotated,
+    NoCoulombCap,
+    ReversedProduct,
+}
+
+impl ContactEquations for Trial {
+    fn rotate_spring(&self, s: &V3, n0: &V3, n: &V3, twist: f64) -> V3 {
+        match self {
+            Self::SpringNotRotated => *s,
+            _ => StandardContact.rotate_spring(s, n0, n, twist),
+        }
+    }
+
+    fn friction_cap(&self, friction: f64, normal_force: f64) -> f64 {
+        match self {
+            Self::NoCoulombCap => f64::MAX,
+            _ => StandardContact.friction_cap(friction, normal_force),
+        }
+    }
+
+    fn surface_velocity(&self, v: &V3, omega: &V3, r: &V3) -> V3 {
+        match self {
+            Self::ReversedProduct => v + r.cross(omega),
+            _ => StandardContact.surface_velocity(v, omega, r),
+        }
+    }
+}

@@ -1,5 +1,4 @@
 use super::help::*;
-use crate::dem::contact::Mutant;
 use crate::dem::*;
 
 const G: f64 = 9.81;
@@ -22,19 +21,18 @@ fn resting(s: &mut Setup, radius: f64, gravity: V3) -> f64 {
 }
 
 /// Final speed over v₀ and time of the end of slip over 2 v₀/(7 μ g), both divided by the forecast for the arm.
-fn sliding(mutant: Mutant) -> (f64, f64) {
+fn sliding(trial: Trial) -> (f64, f64) {
     let pair = PairProperties { friction: 0.3, tangential_damping: 1.0, ..PairProperties::default() };
     let (mut s, r) = (setup(soft(), pair), 5e-3);
     let arm = resting(&mut s, r, V3::z() * -G);
     s.grains[0].velocity = V3::x();
-    s.mutant = mutant;
-    let mut d = Dem::new(&s).unwrap();
+    let mut d = Dem::with_equations(&s, trial).unwrap();
     // Impulse J until v = arm ω: v₀ − J/m = arm² J/I.
     let ratio = arm * arm / (0.4 * r * r);
     let (speed, until) = (ratio / (1.0 + ratio), 1.0 / (1.0 + ratio) / (0.3 * G));
     let mut rolling_at = 0.0;
     while d.time() < 1.5 * until {
-        if d.step(1).is_err() {
+        if d.step_with(trial, 1).is_err() {
             break;
         }
         let b = d.bodies();
@@ -49,7 +47,7 @@ fn sliding(mutant: Mutant) -> (f64, f64) {
 /// what is left is the vertical oscillation that friction's torque does not excite: 1e-4.
 #[test]
 fn exact_sliding_to_rolling() {
-    let (v, t) = sliding(Mutant::None);
+    let (v, t) = sliding(Trial::Right);
     assert!((v - 1.0).abs() < 1e-4, "{v}");
     assert!((t - 1.0).abs() < 1e-3, "{t}");
 }
@@ -57,9 +55,9 @@ fn exact_sliding_to_rolling() {
 /// The wrong product and the missing cap do not reach 5/7 at that time.
 #[test]
 fn mutants_caught_by_sliding_to_rolling() {
-    let (v, _) = sliding(Mutant::ReversedProduct);
+    let (v, _) = sliding(Trial::ReversedProduct);
     assert!((v - 1.0).abs() > 0.05, "{v}");
-    let (_, t) = sliding(Mutant::NoCoulombCap);
+    let (_, t) = sliding(Trial::NoCoulombCap);
     assert!((t - 1.0).abs() > 0.05, "{t}");
 }
 
@@ -112,23 +110,22 @@ fn exact_oblique_impact_gross_slip() {
 }
 
 /// A sphere on a turntable moves on a circle at 2/7 of the table's rate in the table's sense (Weltner 1979).
-fn turntable(mutant: Mutant) -> (f64, f64) {
+fn turntable(trial: Trial) -> (f64, f64) {
     let omega = 4.0;
     let mut s = setup(soft(), PairProperties { friction: 0.8, ..PairProperties::default() });
     let arm = resting(&mut s, 5e-3, V3::z() * -G);
     s.walls[0].motion.spin = V3::z() * omega;
-    s.mutant = mutant;
     // Rolling without slip at the start: choose v, then the spin follows from v + ω × (−r z) = Ω × x.
     let (x, v) = (V3::x() * 0.05, V3::y() * 0.04);
     let slip = V3::z().cross(&x) * omega - v;
     s.grains[0].position += x;
     s.grains[0].velocity = v;
     s.grains[0].spin = slip.cross(&V3::z()) * (1.0 / arm);
-    let mut d = Dem::new(&s).unwrap();
+    let mut d = Dem::with_equations(&s, trial).unwrap();
     // 2/7 Ω for a rigid sphere.
     let rate = omega / (1.0 + arm * arm / (0.4 * 25e-6));
     let steps = (std::f64::consts::PI / rate / d.time_step()) as u64;
-    d.step(steps).map_or((1.0, 1.0), |()| {
+    d.step_with(trial, steps).map_or((1.0, 1.0), |()| {
         let turned = d.bodies().velocity[0] + v;
         (turned.norm() / v.norm(), d.bodies().position[0].y.abs())
     })
@@ -137,13 +134,13 @@ fn turntable(mutant: Mutant) -> (f64, f64) {
 /// After half a turn the velocity is reversed, to the spring's creep.
 #[test]
 fn exact_sphere_on_turntable() {
-    let (error, _) = turntable(Mutant::None);
+    let (error, _) = turntable(Trial::Right);
     assert!(error < 6e-3, "{error}");
-    assert!(turntable(Mutant::ReversedProduct).0 > 0.1);
+    assert!(turntable(Trial::ReversedProduct).0 > 0.1);
 }
 
 /// A pair with a stretched tangential spring turns rigidly: the force must come around with it.
-fn carried_spring(mutant: Mutant) -> f64 {
+fn carried_spring(trial: Trial) -> f64 {
     use crate::dem::contact::*;
     // The kernel itself, step by step, under a rigid rotation Ω of a pair whose spring is stretched.
     let pair = PairProperties { friction: 10.0, tangential_damping: 0.0, ..elastic() };
@@ -158,10 +155,8 @@ fn carried_spring(mutant: Mutant) -> f64 {
     let mut losses = Losses::default();
     let mut force = |t: f64, slip: V3, h: &mut History| {
         let m = Motion { slip, relative_spin: V3::zeros(), mean_spin: omega };
-        match mutant {
-            Mutant::None => react(&Standard, law, &at(t), &m, dt, h, &mut Rolling::default(), &mut losses),
-            _ => react(&SpringNotRotated, law, &at(t), &m, dt, h, &mut Rolling::default(), &mut losses),
-        }
+        let contact = Contact { law, geometry: at(t), motion: m, dt };
+        react(&trial, &contact, Memory { history: h, rolling: &mut Rolling::default(), losses: &mut losses })
     };
     let across = g0.cross(&V3::x()).normalize() * 1e-3;
     let first = {
@@ -179,13 +174,13 @@ fn carried_spring(mutant: Mutant) -> f64 {
 /// Second order in Ω Δt = 1e-3.
 #[test]
 fn exact_spring_rotates_with_pair() {
-    assert!(carried_spring(Mutant::None) < 2e-6, "{}", carried_spring(Mutant::None));
-    assert!(carried_spring(Mutant::SpringNotRotated) > 0.1);
+    assert!(carried_spring(Trial::Right) < 2e-6, "{}", carried_spring(Trial::Right));
+    assert!(carried_spring(Trial::SpringNotRotated) > 0.1);
 }
 
 /// A sphere rolling to and fro in a cylinder: T = 4 √(7 (R − r)/(5 g)) K(sin² ½θ₀) for a rigid sphere. Measured:
 /// time of the first half swing over the closed form, and height reached on the far side over the start's.
-fn bowl(mutant: Mutant) -> (f64, f64) {
+fn bowl(trial: Trial) -> (f64, f64) {
     let (big, r) = (0.05, 5e-3);
     let mut s = setup(firm(), PairProperties { friction: 5.0, tangential_damping: 0.0, ..elastic() });
     s.walls = vec![Wall::fixed(
@@ -200,16 +195,15 @@ fn bowl(mutant: Mutant) -> (f64, f64) {
         0,
     )];
     s.gravity = V3::z() * -G;
-    s.mutant = mutant;
     let start = 1.0f64;
     let l = big - r;
     s.grains = vec![Grain::sphere(r, V3::new(-l * libm::sin(start), 0.0, big - l * libm::cos(start)), 0)];
-    let mut d = Dem::new(&s).unwrap();
+    let mut d = Dem::with_equations(&s, trial).unwrap();
     let k = libm::sin(0.5 * start);
     let half = 2.0 * (1.4 * l / G).sqrt() * super::rotation::elliptic_k(k * k);
     let mut moving = false;
     while d.time() < 3.0 * half {
-        if d.step(1).is_err() {
+        if d.step_with(trial, 1).is_err() {
             return (0.0, 0.0);
         }
         let v = d.bodies().velocity[0].x;
@@ -225,8 +219,8 @@ fn bowl(mutant: Mutant) -> (f64, f64) {
 /// Rigid limit to the overlap's δ/r ~ 1e-4 (and the first landing, which the elastic floor gives back).
 #[test]
 fn exact_rolling_pendulum() {
-    let (t, height) = bowl(Mutant::None);
+    let (t, height) = bowl(Trial::Right);
     assert!((t - 1.0).abs() < 2e-3 && (height - 1.0).abs() < 2e-3, "{t} {height}");
-    let (t, height) = bowl(Mutant::ReversedProduct);
+    let (t, height) = bowl(Trial::ReversedProduct);
     assert!((t - 1.0).abs() > 0.01 || (height - 1.0).abs() > 0.01, "{t} {height}");
 }

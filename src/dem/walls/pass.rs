@@ -3,8 +3,10 @@
 use super::{Near, Pose, Surface, Wall, near, surface_velocity};
 use crate::dem::V3;
 use crate::dem::bodies::Member;
-use crate::dem::contact::{Geometry, History, Losses, Motion, Physics, Rolling, react};
-use crate::dem::material::PairTable;
+use crate::dem::contact::pass::Inputs;
+use crate::dem::contact::{
+    Contact, ContactEquations, Geometry, History, Losses, Memory, Motion, Rolling, react,
+};
 use crate::dem::neighbours::cells::fold;
 use rayon::prelude::*;
 
@@ -194,20 +196,14 @@ fn images(period: &[Option<f64>; 3], bounded: bool) -> Vec<V3> {
 /// Forces of all wall contacts.
 ///
 /// # Returns
-/// The losses, and the first member with more overlap than `limit` × its radius.
-pub fn run<P: Physics>(
-    physics: P,
-    table: &PairTable,
-    members: &[Member],
+/// The losses, and the first member with more overlap than [`Inputs::limit`] × its radius.
+pub fn run<E: ContactEquations>(
+    equations: E,
+    inputs: &Inputs,
     scenery: &Scenery,
     near_walls: &mut [NearWall],
-    dt: f64,
-    limit: f64,
 ) -> (Losses, Option<usize>) {
-    near_walls
-        .par_iter_mut()
-        .with_min_len(64)
-        .for_each(|n| one(&physics, table, &members[n.member as usize], scenery, n, dt, limit));
+    near_walls.par_iter_mut().with_min_len(64).for_each(|n| one(&equations, inputs, scenery, n));
     let mut total = Losses::default();
     let mut deep = None;
     for (k, n) in near_walls.iter().enumerate() {
@@ -219,15 +215,8 @@ pub fn run<P: Physics>(
     (total, deep)
 }
 
-fn one<P: Physics>(
-    physics: &P,
-    table: &PairTable,
-    m: &Member,
-    scenery: &Scenery,
-    n: &mut NearWall,
-    dt: f64,
-    limit: f64,
-) {
+fn one<E: ContactEquations>(equations: &E, inputs: &Inputs, scenery: &Scenery, n: &mut NearWall) {
+    let m = &inputs.members[n.member as usize];
     n.force = V3::zeros();
     n.torque = V3::zeros();
     n.losses = Losses::default();
@@ -249,19 +238,21 @@ fn one<P: Physics>(
     for ((c, t), (mut history, mut rolling)) in touches.iter().zip(histories) {
         let wall = &scenery.walls[c.wall as usize];
         let overlap = m.radius - t.distance;
-        if overlap > limit * m.radius {
+        if overlap > inputs.limit * m.radius {
             n.too_deep = true;
         }
         let arm = t.normal * -t.distance;
         let of_wall = surface_velocity(wall, &scenery.poses[c.wall as usize], &(m.position + c.image + arm));
         let motion = Motion {
-            slip: physics.surface_velocity(&m.velocity, &m.spin, &arm) - of_wall,
+            slip: equations.surface_velocity(&m.velocity, &m.spin, &arm) - of_wall,
             relative_spin: m.spin - wall.motion.spin,
             mean_spin: (m.spin + wall.motion.spin) * 0.5,
         };
         let g = Geometry { normal: t.normal, overlap, radius: m.radius, mass: 1.0 / m.inverse_mass };
-        let law = table.law(m.material, wall.material as u32);
-        let r = react(physics, law, &g, &motion, dt, &mut history, &mut rolling, &mut n.losses);
+        let law = inputs.table.law(m.material, wall.material as u32);
+        let contact = Contact { law, geometry: g, motion, dt: inputs.dt };
+        let memory = Memory { history: &mut history, rolling: &mut rolling, losses: &mut n.losses };
+        let r = react(equations, &contact, memory);
         let force = g.normal * r.normal + r.tangential;
         n.losses.driven += force.dot(&of_wall) + r.rolling.dot(&wall.motion.spin);
         n.force += force;

@@ -12,34 +12,16 @@ use crate::dem::V3;
 /// # Verified by
 /// `wall_shapes_nearest_points`, `mesh_edge_gives_one_contact`.
 pub fn near(surface: &Surface, x: &V3, reach: f64, triangles: Option<&[u32]>, out: &mut Vec<Near>) {
-    let mut push = |normal: V3, distance: f64, feature: u32| {
-        if distance < reach {
-            out.push(Near { normal, distance, feature });
-        }
-    };
-    match surface {
-        Surface::Plane { point, normal } => push(*normal, (x - point).dot(normal), 0),
+    let (normal, distance) = match surface {
+        Surface::Plane { point, normal } => (*normal, (x - point).dot(normal)),
         Surface::Cylinder { point, axis, radius, half_length, side } => {
-            let d = x - point;
-            let along = d.dot(axis);
-            let radial = d - axis * along;
-            let rho = radial.norm();
-            let out_of_axis = if rho > 0.0 { radial / rho } else { any_normal(axis) };
+            let (along, rho, out_of_axis) = cylindrical(&(x - point), axis);
             match (side, half_length) {
-                (Side::Inside, _) => push(-out_of_axis, radius - rho, 0),
-                (Side::Outside, None) => push(out_of_axis, rho - radius, 0),
+                (Side::Inside, _) => (-out_of_axis, radius - rho),
+                (Side::Outside, None) => (out_of_axis, rho - radius),
                 (Side::Outside, Some(h)) => {
-                    let (beyond, cap) = (along.abs() - h, axis * along.signum());
-                    let side_gap = rho - radius;
-                    if beyond <= 0.0 && side_gap >= beyond {
-                        push(out_of_axis, side_gap, 0);
-                    } else if side_gap <= 0.0 {
-                        push(cap, beyond, 0);
-                    } else {
-                        let v = cap * beyond + out_of_axis * side_gap;
-                        let size = v.norm();
-                        push(v / size, size, 0);
-                    }
+                    let cap = axis * along.signum();
+                    out_of_disc((cap, along.abs() - h), (out_of_axis, rho - radius))
                 }
             }
         }
@@ -48,40 +30,73 @@ pub fn near(surface: &Surface, x: &V3, reach: f64, triangles: Option<&[u32]>, ou
             let rho = d.norm();
             let n = if rho > 0.0 { d / rho } else { V3::z() };
             match side {
-                Side::Inside => push(-n, radius - rho, 0),
-                Side::Outside => push(n, rho - radius, 0),
+                Side::Inside => (-n, radius - rho),
+                Side::Outside => (n, rho - radius),
             }
         }
         Surface::Box { centre, half, orientation, side } => {
             let l = orientation.inverse_transform_vector(&(x - centre));
             if *side == Side::Inside {
-                for k in 0..3 {
-                    for (f, sign) in [(0, 1.0), (1, -1.0)] {
-                        let distance = half[k] - sign * l[k];
-                        if distance < reach {
-                            let mut n = V3::zeros();
-                            n[k] = -sign;
-                            push(orientation * n, distance, 2 * k as u32 + f);
-                        }
-                    }
-                }
-                return;
+                return out.extend(
+                    faces(&l, half)
+                        .filter(|near| near.distance < reach)
+                        .map(|near| Near { normal: orientation * near.normal, ..near }),
+                );
             }
-            let beyond = l.abs() - half;
-            let outside = beyond.map(|b| if b > 0.0 { b } else { 0.0 });
-            let size = outside.norm();
-            if size > 0.0 {
-                let n = outside.component_mul(&l.map(f64::signum)) / size;
-                push(orientation * n, size, 0);
-            } else {
-                let k = beyond.imax();
-                let mut n = V3::zeros();
-                n[k] = l[k].signum();
-                push(orientation * n, beyond[k], 0);
-            }
+            let (normal, distance) = out_of_box(&l, half);
+            (orientation * normal, distance)
         }
-        Surface::Mesh(mesh) => mesh.near(x, reach, triangles, out),
+        Surface::Mesh(mesh) => return mesh.near(x, reach, triangles, out),
+    };
+    if distance < reach {
+        out.push(Near { normal, distance, feature: 0 });
     }
+}
+
+/// Place along an axis, distance from it, and the unit vector away from it.
+fn cylindrical(d: &V3, axis: &V3) -> (f64, f64, V3) {
+    let along = d.dot(axis);
+    let radial = d - axis * along;
+    let rho = radial.norm();
+    (along, rho, if rho > 0.0 { radial / rho } else { any_normal(axis) })
+}
+
+/// Normal and distance of a cylinder with ends; `cap`, `side`: their normals and the distances beyond them.
+fn out_of_disc((cap, beyond): (V3, f64), (side, side_gap): (V3, f64)) -> (V3, f64) {
+    if beyond <= 0.0 && side_gap >= beyond {
+        (side, side_gap)
+    } else if side_gap <= 0.0 {
+        (cap, beyond)
+    } else {
+        let v = cap * beyond + side * side_gap;
+        let size = v.norm();
+        (v / size, size)
+    }
+}
+
+/// The faces of a box around `l`, box frame.
+fn faces<'a>(l: &'a V3, half: &'a V3) -> impl Iterator<Item = Near> + 'a {
+    (0..3).flat_map(move |k| {
+        [(0, 1.0), (1, -1.0)].map(|(f, sign)| {
+            let mut normal = V3::zeros();
+            normal[k] = -sign;
+            Near { normal, distance: half[k] - sign * l[k], feature: 2 * k as u32 + f }
+        })
+    })
+}
+
+/// Normal and distance of a box seen from outside, box frame.
+fn out_of_box(l: &V3, half: &V3) -> (V3, f64) {
+    let beyond = l.abs() - half;
+    let outside = beyond.map(|b| if b > 0.0 { b } else { 0.0 });
+    let size = outside.norm();
+    if size > 0.0 {
+        return (outside.component_mul(&l.map(f64::signum)) / size, size);
+    }
+    let k = beyond.imax();
+    let mut n = V3::zeros();
+    n[k] = l[k].signum();
+    (n, beyond[k])
 }
 
 /// Some unit vector at right angles to `axis`.

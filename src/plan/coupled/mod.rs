@@ -23,6 +23,7 @@ use crate::scene::dry::DryScene;
 use crate::scene::force::gravity_vector;
 use crate::scene::{GrainRefillChoice, GrainWallChoice, LubricationChoice, Scene};
 use crate::setup::Setup;
+use crate::setup::suspension::lubrication::STIFFEST;
 use crate::units::Units;
 
 /// Least density of a grain over that of the fluid.
@@ -33,9 +34,6 @@ const LOW_DENSITY_RATIO: f64 = 0.5;
 const LEAST_RADIUS: f64 = 1.0;
 /// Gap, cells, down to which the friction of lubrication must be had in full.
 const LUBRICATED_GAP: f64 = 0.1;
-/// Share of a pair's reduced mass over the grains' step that the friction of a gap may reach, as in
-/// [`crate::coupling`].
-const STIFFEST: f64 = 0.5;
 /// Most sub-steps that are chosen.
 const MOST_SUB_STEPS: f64 = 1e6;
 

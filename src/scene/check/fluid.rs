@@ -3,6 +3,7 @@
 use super::{Checker, SceneError, SceneProblem};
 use crate::geometry::Axis;
 use crate::scene::{BodyForce, Boundary, Domain, Gravity, InitialVelocity, Rheology, Scene};
+use crate::vector::norm;
 
 /// Solids and layers are numbered in one byte, 0 being fluid (or the first fluid).
 const MAX_ENTRIES: usize = 255;
@@ -200,8 +201,4 @@ fn equal_waves(at: &Checker, path: &str, domain: &Domain, counts: [u32; 3]) -> R
     // Equal up to the rounding of decimal edge lengths.
     let equal = lengths.iter().all(|l| (l / lengths[0] - 1.0).abs() < 1e-12);
     at.ensure(equal, path, || SceneProblem::UnequalWaves { lengths })
-}
-
-fn norm(v: [f64; 3]) -> f64 {
-    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }

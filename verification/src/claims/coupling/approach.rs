@@ -6,10 +6,11 @@ use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Toleran
 use crate::claims::immersed::{UNITS, exact, grains, immersed, periodic, sphere};
 use crate::claims::settling::TRT;
 use crate::exact::suspension::two_spheres;
-use lahar::coupling::{GrainWall, Lubrication, Mutant as Wrong, Suspension};
+use lahar::coupling::{CouplingEquations, GrainWall, Lubrication, StandardCoupling, Suspension};
 use lahar::dem::V3;
 use lahar::rheology::Law;
 use lahar::solver::run::Backend;
+use std::sync::Arc;
 
 /// Radius, cells.
 const RADIUS: f64 = 4.0;
@@ -40,7 +41,7 @@ fn boxed(
     place: [f64; 3],
     gap: f64,
     rules: Option<Lubrication>,
-    mutant: Wrong,
+    equations: impl CouplingEquations + Copy + 'static,
 ) -> Result<(f64, f64), VerifyError> {
     let reach = radius + 0.5 * gap;
     let [x, y, z] = extents.map(|n| (n / 2) as f64);
@@ -49,7 +50,7 @@ fn boxed(
     let suspension = Suspension {
         wall: GrainWall::CentralLinear,
         lubrication: rules,
-        mutant,
+        equations: Arc::new(equations),
         ..Suspension::new(grains(HEAVY, vec![ball(1.0), ball(-1.0)]), UNITS)
     };
     let mut setup = periodic(extents, suspension);
@@ -86,15 +87,15 @@ fn forces(
     radius: f64,
     gap: f64,
     rules: Option<Lubrication>,
-    mutant: Wrong,
+    equations: impl CouplingEquations + Copy + 'static,
 ) -> Result<Found, VerifyError> {
     let boxes =
         [[5.0, 5.0, 7.0], [6.5, 6.5, 9.0]].map(|edges: [f64; 3]| edges.map(|x| (x * radius) as usize));
     let [small, large] = boxes.map(|n: [usize; 3]| n.iter().product::<usize>() as f64);
     let mut sums = [0.0; 3];
     for (place, weight) in places() {
-        let (near, _) = boxed(backend, (radius, boxes[0]), place, gap, rules, mutant)?;
-        let (far, contact) = boxed(backend, (radius, boxes[1]), place, gap, rules, mutant)?;
+        let (near, _) = boxed(backend, (radius, boxes[0]), place, gap, rules, equations)?;
+        let (far, contact) = boxed(backend, (radius, boxes[1]), place, gap, rules, equations)?;
         let lattice = (far * large - near * small) / (large - small);
         for (sum, x) in sums.iter_mut().zip([lattice, contact, (lattice + contact) * (lattice + contact)]) {
             *sum += weight * x;
@@ -105,9 +106,13 @@ fn forces(
     Ok(Found { lattice, lubrication, spread: variance.max(0.0).sqrt() })
 }
 
-/// Both together against the series. `mutant`: with what is wrong.
-pub fn approach(backend: &dyn Backend, gap: f64, mutant: Wrong) -> Result<Sample, VerifyError> {
-    let found = forces(backend, RADIUS, gap, Some(Lubrication::default()), mutant)?;
+/// Both together against the series. `equations`: of the coupling.
+pub fn approach(
+    backend: &dyn Backend,
+    gap: f64,
+    equations: impl CouplingEquations + Copy + 'static,
+) -> Result<Sample, VerifyError> {
+    let found = forces(backend, RADIUS, gap, Some(Lubrication::default()), equations)?;
     let sum = found.lattice + found.lubrication;
     Ok(Sample::relative(gap, sum, exact(two_spheres::approaching(gap / RADIUS))?)
         .with("of the lattice", found.lattice)
@@ -137,14 +142,15 @@ pub const APPROACH: Claim = Claim {
                   R/2 0.05/0.74^2 = 0.2 of 5 to 7 near it",
     },
     kind: Kind::Verification,
-    measure: |backend, gap| approach(backend, gap, Wrong::None),
+    measure: |backend, gap| approach(backend, gap, StandardCoupling),
 };
 
 /// Rise of the force from one gap to the next smaller one, and no jump at the cut-off.
 fn steady(backend: &dyn Backend, cutoff: f64) -> Result<Sample, VerifyError> {
     let rules = Some(Lubrication { cutoff, ..Lubrication::default() });
-    let total =
-        |gap: f64| boxed(backend, (RADIUS, [20, 20, 28]), PLACE, gap, rules, Wrong::None).map(|(a, b)| a + b);
+    let total = |gap: f64| {
+        boxed(backend, (RADIUS, [20, 20, 28]), PLACE, gap, rules, StandardCoupling).map(|(a, b)| a + b)
+    };
     let (above, below) = (total(cutoff * 1.001)?, total(cutoff * 0.999)?);
     Ok(Sample::absolute(cutoff, below / above - 1.0, 0.0))
 }
@@ -173,7 +179,7 @@ pub const NO_JUMP: Claim = Claim {
 pub fn table(backend: &dyn Backend, radius: f64, gaps: &[f64]) -> Result<Vec<[f64; 5]>, VerifyError> {
     gaps.iter()
         .map(|&gap| {
-            let found = forces(backend, radius, gap, Some(Lubrication::default()), Wrong::None)?;
+            let found = forces(backend, radius, gap, Some(Lubrication::default()), StandardCoupling)?;
             let reference = exact(two_spheres::approaching(gap / radius))?;
             Ok([gap, found.lattice, found.lubrication, reference, found.spread])
         })

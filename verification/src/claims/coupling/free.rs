@@ -9,7 +9,7 @@ use crate::claims::immersed::{
 };
 use crate::claims::settling::{TRT, array, over_places};
 use crate::exact::suspension::{cubic_array, rotation};
-use lahar::coupling::{GrainWall, Mutant as Wrong, Suspension};
+use lahar::coupling::{CouplingEquations, GrainWall, StandardCoupling, Suspension};
 use lahar::dem::{Clump, Grain, Orientation, Sphere, V3};
 use lahar::rheology::Law;
 use lahar::setup::{BodyForce, Face, FreeSurface, Setup};
@@ -176,9 +176,17 @@ pub const NEUTRAL_IN_POOL: Claim = Claim {
 };
 
 /// Moving walls normal to y around one grain: shear rate 2 `speed`/height.
-pub fn sheared(grain: Grain, clumps: Vec<Clump>, cells: usize, speed: f64, mutant: Wrong) -> Setup {
-    let mut suspension =
-        Suspension { mutant, ..plain_suspension(grains(1.0, vec![grain]), GrainWall::CentralLinear) };
+pub fn sheared(
+    grain: Grain,
+    clumps: Vec<Clump>,
+    cells: usize,
+    speed: f64,
+    equations: impl CouplingEquations + Copy + 'static,
+) -> Setup {
+    let mut suspension = Suspension {
+        equations: Arc::new(equations),
+        ..plain_suspension(grains(1.0, vec![grain]), GrainWall::CentralLinear)
+    };
     suspension.dem.clumps = clumps;
     let mut setup = periodic([cells; 3], suspension);
     if let Some(suspension) = setup.grains.as_mut().map(Arc::make_mut) {
@@ -212,11 +220,15 @@ pub fn middle(radius: f64, place: [f64; 3]) -> (usize, [f64; 3]) {
 
 const SHEAR_SPEED: f64 = 1e-4;
 
-/// Spin of a sphere in shear. `mutant`: with what is wrong.
-pub fn sphere_spin(backend: &dyn Backend, radius: f64, mutant: Wrong) -> Result<Sample, VerifyError> {
+/// Spin of a sphere in shear. `equations`: of the coupling.
+pub fn sphere_spin(
+    backend: &dyn Backend,
+    radius: f64,
+    equations: impl CouplingEquations + Copy + 'static,
+) -> Result<Sample, VerifyError> {
     let (mean, scatter) = over_places(|place| {
         let (cells, centre) = middle(radius, place);
-        let setup = sheared(sphere(radius, centre), Vec::new(), cells, SHEAR_SPEED, mutant);
+        let setup = sheared(sphere(radius, centre), Vec::new(), cells, SHEAR_SPEED, equations);
         spin(backend, &setup, 2.0 * SHEAR_SPEED / cells as f64)
     })?;
     Ok(Sample::relative(radius, mean, rotation::SPHERE_SPIN).with("largest deviation of a place", scatter))
@@ -240,7 +252,7 @@ pub const SPHERE_SPIN: Claim = Claim {
                   here and there: 0.15/R^2 = 0.037 at R = 2",
     },
     kind: Kind::Verification,
-    measure: |backend, radius| sphere_spin(backend, radius, Wrong::None),
+    measure: |backend, radius| sphere_spin(backend, radius, StandardCoupling),
 };
 
 /// Ratio r of the effective aspect from the spins of a touching pair along the flow and along the gradient.
@@ -253,7 +265,7 @@ fn pair_aspect(backend: &dyn Backend, radius: f64) -> Result<Sample, VerifyError
             let (cells, centre) = middle(radius, place);
             let turn = Orientation::from_axis_angle(&nalgebra::Vector3::z_axis(), angle) * clump.frame;
             let grain = Grain::clump(0, equivalent, V3::from(centre), turn, 0);
-            let setup = sheared(grain, vec![clump.clone()], cells, SHEAR_SPEED, Wrong::None);
+            let setup = sheared(grain, vec![clump.clone()], cells, SHEAR_SPEED, StandardCoupling);
             spin(backend, &setup, 2.0 * SHEAR_SPEED / cells as f64)
         })
     };

@@ -6,7 +6,7 @@ use super::free::{middle, sheared};
 use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::claims::immersed::{exact, immersed, numerics};
 use crate::exact::suspension::rotation::{self, JefferyOrbit};
-use lahar::coupling::Mutant as Wrong;
+use lahar::coupling::StandardCoupling;
 use lahar::dem::{Clump, Grain, Orientation, Sphere, V3};
 use lahar::solver::run::Backend;
 
@@ -23,7 +23,7 @@ fn half_turn(backend: &dyn Backend, radius: f64) -> Result<Sample, VerifyError> 
     let turn = Orientation::from_axis_angle(&nalgebra::Vector3::z_axis(), 0.5 * PI) * clump.frame;
     let grain = Grain::clump(0, clump.equivalent_radius(), V3::from(centre), turn, 0);
     let rate = REYNOLDS * VISCOSITY / (4.0 * radius * radius);
-    let setup = sheared(grain, vec![clump], cells, 0.5 * rate * cells as f64, Wrong::None);
+    let setup = sheared(grain, vec![clump], cells, 0.5 * rate * cells as f64, StandardCoupling);
     let orbit = exact(JefferyOrbit::new(exact(rotation::chain(2, 2.0))?, rate))?;
     let mut run = backend.start(&setup)?;
     let (mut angle, mut before, mut off) = (0.0, 0.0, 0.0_f64);

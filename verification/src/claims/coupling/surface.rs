@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::claims::free_surface::support::tank;
 use crate::claims::immersed::{UNITS, grains, immersed, numerics, periodic, sphere, volume};
-use lahar::coupling::{GrainWall, Mutant as Wrong, Suspension};
+use lahar::coupling::{CouplingEquations, GrainWall, StandardCoupling, Suspension};
 use lahar::dem::packing::Random;
 use lahar::dem::{Grain, Surface, V3, Wall};
 use lahar::rheology::Law;
@@ -58,7 +58,12 @@ fn stirring(count: usize, [nx, ny]: [f64; 2], depth: f64, radius: f64) -> Result
 }
 
 /// What the books say after a while: residuals of mass and momentum, and the largest rise of the energy.
-pub fn books(backend: &dyn Backend, count: f64, steps: u64, mutant: Wrong) -> Result<[f64; 4], VerifyError> {
+pub fn books(
+    backend: &dyn Backend,
+    count: f64,
+    steps: u64,
+    equations: impl CouplingEquations + Copy + 'static,
+) -> Result<[f64; 4], VerifyError> {
     let many = count > 50.0;
     // 1e5 steps of 200 grains in ten minutes of one thread: grains of 1.6 cells, a fifth of the volume.
     let (extents, radius) = if many { ([32, 32, 24], 1.6) } else { ([20, 20, 20], 2.2) };
@@ -67,8 +72,12 @@ pub fn books(backend: &dyn Backend, count: f64, steps: u64, mutant: Wrong) -> Re
     let sides = [extents[0] as f64, extents[1] as f64];
     let mut dem = grains(1.5, stirring(count as usize, sides, depth, radius)?);
     dem.materials.list[0].young_pa = 0.1;
-    let suspension =
-        Suspension { wall: GrainWall::HalfWay, sub_steps: 10, mutant, ..Suspension::new(dem, UNITS) };
+    let suspension = Suspension {
+        wall: GrainWall::HalfWay,
+        sub_steps: 10,
+        equations: Arc::new(equations),
+        ..Suspension::new(dem, UNITS)
+    };
     let mut run = backend.start(&pool(extents, depth, gravity, suspension))?;
     let energy = |run: &dyn lahar::solver::run::Run| -> Result<f64, VerifyError> {
         let grains = immersed(run)?;
@@ -95,13 +104,17 @@ pub fn books(backend: &dyn Backend, count: f64, steps: u64, mutant: Wrong) -> Re
 }
 
 fn stir(backend: &dyn Backend, count: f64) -> Result<Sample, VerifyError> {
-    ledgers(backend, count, Wrong::None)
+    ledgers(backend, count, StandardCoupling)
 }
 
-/// Residuals over their bounds. `mutant`: with what is wrong.
-pub fn ledgers(backend: &dyn Backend, count: f64, mutant: Wrong) -> Result<Sample, VerifyError> {
+/// Residuals over their bounds. `equations`: of the coupling.
+pub fn ledgers(
+    backend: &dyn Backend,
+    count: f64,
+    equations: impl CouplingEquations + Copy + 'static,
+) -> Result<Sample, VerifyError> {
     let steps = if count > 50.0 { 100_000 } else { 300 };
-    let [mass, momentum, rise, change] = books(backend, count, steps, mutant)?;
+    let [mass, momentum, rise, change] = books(backend, count, steps, equations)?;
     let shares = [mass / 1e-12, momentum / 1e-9, rise / 1e-2];
     let worst = shares.iter().fold(0.0_f64, |m, s| if *s <= m { m } else { *s });
     Ok(Sample::absolute(count, worst, 0.0)

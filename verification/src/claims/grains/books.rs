@@ -3,7 +3,10 @@
 use super::support::{RADIUS, setup};
 use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
 use lahar::dem::packing::{Lattice, Random, Region, Sizes, lattice, scatter};
-use lahar::dem::{Clump, Dem, Grain, Integrator, Mutant, NormalLaw, PairProperties, Period, Setup, V3};
+use lahar::dem::{
+    Clump, ContactEquations, Dem, Grain, Integrator, NormalLaw, PairProperties, Period, Setup,
+    StandardContact, V3,
+};
 use lahar::solver::run::Backend;
 
 /// Edge of the periodic box, m.
@@ -43,13 +46,16 @@ fn all_on() -> PairProperties {
 }
 
 /// What is missing in the books after eighty contact times, over the energy at the start.
-pub(super) fn books(steps: f64, integrator: Integrator, wrong: Mutant) -> Result<Sample, VerifyError> {
+pub(super) fn books(
+    steps: f64,
+    integrator: Integrator,
+    equations: impl ContactEquations,
+) -> Result<Sample, VerifyError> {
     let mut s = cloud(all_on(), steps)?;
     s.integrator = integrator;
-    s.mutant = wrong;
-    let mut d = Dem::new(&s)?;
+    let mut d = Dem::with_equations(&s, equations)?;
     let start = d.energies().balance();
-    d.step((80.0 * steps) as u64)?;
+    d.step_with(equations, (80.0 * steps) as u64)?;
     let e = d.energies();
     Ok(Sample::relative(steps, e.balance(), start)
         .with("lost to normal damping", e.lost_normal / start)
@@ -79,8 +85,8 @@ pub const ENERGY: Claim = Claim {
     },
     kind: Kind::Verification,
     measure: |_, steps| {
-        let gear = books(steps, Integrator::Gear, Mutant::None)?.error;
-        Ok(books(steps, Integrator::Verlet, Mutant::None)?.with("Gear", gear))
+        let gear = books(steps, Integrator::Gear, StandardContact)?.error;
+        Ok(books(steps, Integrator::Verlet, StandardContact)?.with("Gear", gear))
     },
 };
 

@@ -4,7 +4,7 @@ use super::support::{G, POISSON, RADIUS, elastic, floor, mass, plane, setup, wor
 use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::exact::grains::collision::{hertz_overlap, hertz_stiffness};
 use crate::exact::grains::rolling::{oblique_slip, oblique_stick};
-use lahar::dem::{Dem, Grain, Mutant, NormalLaw, PairProperties, V3};
+use lahar::dem::{ContactEquations, Dem, Grain, NormalLaw, PairProperties, StandardContact, V3};
 use lahar::solver::run::Backend;
 
 /// Speed and surface speed of rotation after an impact of a sphere without spin on the floor.
@@ -13,28 +13,27 @@ fn strike(
     pair: PairProperties,
     v: (f64, f64),
     steps: f64,
-    wrong: Mutant,
+    equations: impl ContactEquations,
 ) -> Result<[f64; 3], VerifyError> {
     let mut s = setup(young, pair);
     s.walls = vec![floor()];
     s.steps_per_contact = steps;
     s.grains = vec![Grain::sphere(RADIUS, V3::z() * RADIUS, 0).moving(V3::new(v.1, 0.0, -v.0))];
-    s.mutant = wrong;
-    let mut d = Dem::new(&s)?;
-    d.step(1)?;
+    let mut d = Dem::with_equations(&s, equations)?;
+    d.step_with(equations, 1)?;
     while d.wall_contacts().iter().any(|w| !w.contacts.is_empty()) {
-        d.step(1)?;
+        d.step_with(equations, 1)?;
     }
     let b = d.bodies();
     Ok([b.velocity[0].x, b.spin[0].y * RADIUS, b.velocity[0].z])
 }
 
 /// Slipping impact against the rigid body's.
-pub(super) fn slipping(young: f64, wrong: Mutant) -> Result<Sample, VerifyError> {
+pub(super) fn slipping(young: f64, equations: impl ContactEquations) -> Result<Sample, VerifyError> {
     let (mu, e, normal, tangential) = (0.1, 0.8, 1.0, 3.0);
     let law = NormalLaw::Tsuji { restitution: e };
     let pair = PairProperties { normal: law, friction: mu, rolling_friction: 0.0, tangential_damping: 0.0 };
-    let [v, w, up] = strike(young, pair, (normal, tangential), 1000.0, wrong)?;
+    let [v, w, up] = strike(young, pair, (normal, tangential), 1000.0, equations)?;
     let nan = (f64::NAN, f64::NAN);
     let (exact_v, exact_w) = oblique_slip(normal, tangential, e, mu).unwrap_or(nan);
     let k = hertz_stiffness(young, POISSON, (RADIUS, f64::INFINITY));
@@ -67,7 +66,7 @@ pub const SLIP: Claim = Claim {
         because: "The arm is r less the overlap, whose mean weighted with the force is below the largest one, 2.40e-3 r, ~ E^(-2/5)",
     },
     kind: Kind::Verification,
-    measure: |_, young| slipping(young, Mutant::None),
+    measure: |_, young| slipping(young, StandardContact),
 };
 
 /// Sticking throughout on linear springs.
@@ -106,7 +105,7 @@ fn stick(_: &dyn Backend, stiffness_n_m: f64) -> Result<Sample, VerifyError> {
     for ratio in [0.1, 2.0 / 7.0, 0.8] {
         let law = NormalLaw::Linear { stiffness_n_m, restitution: 1.0, tangential_ratio: ratio };
         let pair = PairProperties { normal: law, friction: 1e4, ..elastic() };
-        let [v, w, _] = strike(7e9, pair, (normal, tangential), 16_000.0, Mutant::None)?;
+        let [v, w, _] = strike(7e9, pair, (normal, tangential), 16_000.0, StandardContact)?;
         let (exact_v, exact_w) = oblique_stick(tangential, ratio);
         errors.extend([(v - exact_v) / tangential, (w - exact_w) / tangential]);
         if ratio == 0.1 {

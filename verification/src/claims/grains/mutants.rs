@@ -2,7 +2,37 @@
 
 use super::{books, contact, impact, inertia, rolling};
 use crate::mutant::{Mutant, Subject};
-use lahar::dem::{InertiaRule, Integrator, Mutant as Wrong};
+use lahar::dem::{ContactEquations, InertiaRule, Integrator, V3};
+
+/// The tangential spring is left where it was when the contact turns.
+#[derive(Debug, Clone, Copy)]
+pub struct SpringNotRotated;
+impl ContactEquations for SpringNotRotated {
+    #[inline(always)]
+    fn rotate_spring(&self, s: &V3, _: &V3, _: &V3, _: f64) -> V3 {
+        *s
+    }
+}
+
+/// No Coulomb cap, in contacts with friction.
+#[derive(Debug, Clone, Copy)]
+pub struct NoCoulombCap;
+impl ContactEquations for NoCoulombCap {
+    #[inline(always)]
+    fn friction_cap(&self, _: f64, _: f64) -> f64 {
+        f64::MAX
+    }
+}
+
+/// The product of 004 Eq 3.38 as printed, u = v + r × ω.
+#[derive(Debug, Clone, Copy)]
+pub struct ReversedProduct;
+impl ContactEquations for ReversedProduct {
+    #[inline(always)]
+    fn surface_velocity(&self, v: &V3, omega: &V3, r: &V3) -> V3 {
+        v + r.cross(omega)
+    }
+}
 
 /// Spring not turned.
 pub const NOT_ROTATED: Mutant = Mutant {
@@ -11,7 +41,7 @@ pub const NOT_ROTATED: Mutant = Mutant {
     description: "The tangential spring stays where it was when the contact turns.",
     caught_by: "spring-turns-with-contact",
     rung: Some(2000.0),
-    subject: Subject::Measure(|_, steps| contact::not_turned(steps)),
+    subject: Subject::Measure(|_, steps| contact::turned(&SpringNotRotated, steps)),
 };
 
 /// The same in a run.
@@ -21,7 +51,7 @@ pub const NOT_ROTATED_RUN: Mutant = Mutant {
     description: "The same, in a run of many grains.",
     caught_by: "energy-books",
     rung: Some(100.0),
-    subject: Subject::Measure(|_, n| books::books(n, Integrator::Verlet, Wrong::SpringNotRotated)),
+    subject: Subject::Measure(|_, n| books::books(n, Integrator::Verlet, SpringNotRotated)),
 };
 
 /// No cap.
@@ -31,7 +61,7 @@ pub const NO_CAP: Mutant = Mutant {
     description: "The tangential force has no upper bound.",
     caught_by: "sliding-to-rolling-time",
     rung: Some(7e6),
-    subject: Subject::Measure(|_, young| rolling::slip_time(young, Wrong::NoCoulombCap)),
+    subject: Subject::Measure(|_, young| rolling::slip_time(young, NoCoulombCap)),
 };
 
 /// No cap, impact.
@@ -41,7 +71,7 @@ pub const NO_CAP_IMPACT: Mutant = Mutant {
     description: "The same, in an oblique impact.",
     caught_by: "oblique-impact-slip",
     rung: Some(7e10),
-    subject: Subject::Measure(|_, young| impact::slipping(young, Wrong::NoCoulombCap)),
+    subject: Subject::Measure(|_, young| impact::slipping(young, NoCoulombCap)),
 };
 
 /// Sum of spheres.
@@ -61,7 +91,7 @@ pub const REVERSED: Mutant = Mutant {
     description: "The surface of a grain moves with u = u_p + r x omega, as printed.",
     caught_by: "sliding-to-rolling-speed",
     rung: None,
-    subject: Subject::Measure(|_, mu| rolling::with_arm(mu, Wrong::ReversedProduct)),
+    subject: Subject::Measure(|_, mu| rolling::with_arm(mu, ReversedProduct)),
 };
 
 /// Reversed product, books.
@@ -71,5 +101,5 @@ pub const REVERSED_BOOKS: Mutant = Mutant {
     description: "The same, in a run of many grains.",
     caught_by: "energy-books",
     rung: Some(100.0),
-    subject: Subject::Measure(|_, n| books::books(n, Integrator::Verlet, Wrong::ReversedProduct)),
+    subject: Subject::Measure(|_, n| books::books(n, Integrator::Verlet, ReversedProduct)),
 };

@@ -9,7 +9,7 @@ use crate::exact::grains::rolling::{
     slip_slope, turntable_rate,
 };
 use crate::reference_values::find;
-use lahar::dem::{Dem, Grain, Mutant, PairProperties, V3};
+use lahar::dem::{ContactEquations, Dem, Grain, PairProperties, StandardContact, V3};
 use lahar::solver::run::Backend;
 
 const STIFFNESS: &str = "E (Pa)";
@@ -31,20 +31,19 @@ struct Throw {
 }
 
 /// Thrown at `v0` with friction `mu`, until it should roll and a while longer.
-fn throw(young: f64, mu: f64, v0: f64, wrong: Mutant) -> Result<Throw, VerifyError> {
+fn throw(young: f64, mu: f64, v0: f64, equations: impl ContactEquations) -> Result<Throw, VerifyError> {
     let mut s = setup(young, sticky(mu));
     let arm = rest_on_floor(&mut s, young, V3::z() * -G);
     s.grains[0].velocity = V3::x() * v0;
-    s.mutant = wrong;
     // The sphere lies still: only slow contacts have to be resolved.
     s.design_speed_m_s = 0.1;
-    let mut d = Dem::new(&s)?;
+    let mut d = Dem::with_equations(&s, equations)?;
     let slip = |d: &Dem| d.bodies().velocity[0].x - d.bodies().spin[0].y * arm * RADIUS;
     let (mut time, mut place) = (f64::NAN, f64::NAN);
     let mut before = slip(&d);
     // Slip, and 0.04 s in which the tangential dashpot brings what is left to rest.
     while d.time() < rolling_time(2.5, v0, mu, G) + 0.04 {
-        d.step(1)?;
+        d.step_with(equations, 1)?;
         let now = slip(&d);
         if time.is_nan() && now <= 0.0 {
             // Back to where the slip, linear in time, was zero.
@@ -80,7 +79,7 @@ pub const SLIDING: Claim = Claim {
     measure: |_, young| {
         let entry = find("sliding_to_rolling", &[])?;
         let (mu, v0) = (entry.input("mu")?, entry.input("v0")?);
-        let t = throw(young, mu, v0, Mutant::None)?;
+        let t = throw(young, mu, v0, StandardContact)?;
         Ok(Sample::relative(young, t.speed, entry.field("v_final_over_v0")?)
             .with("error of the time", t.time / entry.field("t_roll")? - 1.0)
             .with("error of the place", t.place / entry.field("x_roll")? - 1.0))
@@ -88,8 +87,8 @@ pub const SLIDING: Claim = Claim {
 };
 
 /// With the arm r − δ.
-pub(super) fn with_arm(mu: f64, wrong: Mutant) -> Result<Sample, VerifyError> {
-    let t = throw(7e6, mu, 0.5, wrong)?;
+pub(super) fn with_arm(mu: f64, equations: impl ContactEquations) -> Result<Sample, VerifyError> {
+    let t = throw(7e6, mu, 0.5, equations)?;
     let q = arm_ratio(t.arm);
     Ok(Sample::relative(mu, t.speed, rolling_speed(q)).with("arm/r", t.arm))
 }
@@ -114,12 +113,12 @@ pub const SLIDING_ARM: Claim = Claim {
                   for what is left of the damped oscillation of the tangential spring",
     },
     kind: Kind::Verification,
-    measure: |_, mu| with_arm(mu, Mutant::None),
+    measure: |_, mu| with_arm(mu, StandardContact),
 };
 
 /// Time of the end of slip.
-pub(super) fn slip_time(young: f64, wrong: Mutant) -> Result<Sample, VerifyError> {
-    let t = throw(young, 0.3, 1.0, wrong)?;
+pub(super) fn slip_time(young: f64, equations: impl ContactEquations) -> Result<Sample, VerifyError> {
+    let t = throw(young, 0.3, 1.0, equations)?;
     Ok(Sample::relative(young, t.time, rolling_time(arm_ratio(t.arm), 1.0, 0.3, G)))
 }
 
@@ -144,7 +143,7 @@ pub const SLIDING_TIME: Claim = Claim {
                   within the first step.)",
     },
     kind: Kind::Verification,
-    measure: |_, young| slip_time(young, Mutant::None),
+    measure: |_, young| slip_time(young, StandardContact),
 };
 
 /// A sphere released on a slope, watched between two times.
@@ -300,12 +299,11 @@ pub const TURNTABLE: Claim = Claim {
 
 /// Half a swing of a sphere that rolls to and fro in a trough: time over the closed form's, height on the far side
 /// over the start's.
-pub(super) fn pendulum(young: f64, wrong: Mutant) -> Result<Sample, VerifyError> {
+pub(super) fn pendulum(young: f64) -> Result<Sample, VerifyError> {
     let (big, start) = (0.05, 1.0f64);
     let mut s = setup(young, sticky(5.0));
     s.walls = vec![wall("trough", trough(big))];
     s.gravity = V3::z() * -G;
-    s.mutant = wrong;
     s.design_speed_m_s = 0.1;
     s.start_overlap = 0.02;
     // At the overlap that carries the load there.
@@ -350,7 +348,7 @@ pub const PENDULUM: Claim = Claim {
                   1.07e-4 r: 5.1e-5",
     },
     kind: Kind::Verification,
-    measure: |_, young| pendulum(young, Mutant::None),
+    measure: |_, young| pendulum(young),
 };
 
 /// Slowing down by rolling friction.

@@ -2,6 +2,12 @@
 
 use crate::dem;
 use crate::units::Units;
+use std::sync::Arc;
+
+mod equations;
+pub mod lubrication;
+
+pub use equations::{CouplingEquations, StandardCoupling};
 
 /// How a grain's surface returns populations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -29,28 +35,6 @@ pub enum GrainRefill {
     Neighbours,
 }
 
-/// Which mass a cell that a grain gives free gets \[C3\].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum RefillMass {
-    /// The mean density of its fluid neighbours, and what the grain has taken beyond the reference density and not
-    /// given back: what goes into grains comes out of them, and the mass of the fluid does not drift.
-    #[default]
-    Neutral,
-    /// The mean density of its fluid neighbours.
-    Neighbours,
-}
-
-/// What is done about the difference between a grain's volume and that of the cells it covers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum VolumeRule {
-    /// The weight of the fluid that fits between the two volumes is added to the buoyancy, in proportion to the wet
-    /// part of the surface.
-    #[default]
-    Corrected,
-    /// Nothing: buoyancy is that of the covered cells.
-    Cells,
-}
-
 /// Lubrication forces in gaps that the lattice does not resolve \[C5\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lubrication {
@@ -73,20 +57,6 @@ impl Default for Lubrication {
     }
 }
 
-/// Wrong forms on trial.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mutant {
-    /// The right form.
-    #[default]
-    None,
-    /// Wall velocity with r × ω (004 Eq 3.38).
-    ReversedProduct,
-    /// Lubrication without π (000 Eq 15).
-    LubricationWithoutPi,
-    /// Mass of covered cells is forgotten.
-    CoveredMassDropped,
-}
-
 /// Grains in a fluid.
 #[derive(Clone, Debug)]
 pub struct Suspension {
@@ -100,10 +70,6 @@ pub struct Suspension {
     pub wall: GrainWall,
     /// What uncovered cells start from.
     pub refill: GrainRefill,
-    /// And with which mass.
-    pub refill_mass: RefillMass,
-    /// Staircase buoyancy.
-    pub volume: VolumeRule,
     /// −∇P, lattice units: a pressure gradient that is not in the computed pressure, for instance that of fluid at
     /// rest in a closed box whose fluid is computed without weight. Acts on the volume of the grains.
     pub pressure_gradient: [f64; 3],
@@ -112,9 +78,8 @@ pub struct Suspension {
     pub balanced: [bool; 3],
     /// Lubrication; `None`: without.
     pub lubrication: Option<Lubrication>,
-    /// Wrong physics for tests.
-    #[doc(hidden)]
-    pub mutant: Mutant,
+    /// [`StandardCoupling`] but for trials.
+    pub equations: Arc<dyn CouplingEquations>,
 }
 
 impl Suspension {
@@ -127,12 +92,10 @@ impl Suspension {
             sub_steps: 1,
             wall: GrainWall::default(),
             refill: GrainRefill::default(),
-            refill_mass: RefillMass::default(),
-            volume: VolumeRule::default(),
             pressure_gradient: [0.0; 3],
             balanced: [false; 3],
             lubrication: Some(Lubrication::default()),
-            mutant: Mutant::None,
+            equations: Arc::new(StandardCoupling),
         }
     }
 }

@@ -1,0 +1,43 @@
+//! The eigenvalues of the product against those of faer, an implementation of others.
+
+use faer::Mat;
+use lahar::lattice::Q;
+use lahar::stability::Linearised;
+use lahar::stability::table::table;
+
+/// Every limit of the table, below it and above it, for the wave that grows first, its long neighbours, and some
+/// others.
+#[test]
+fn parity_spectral_radius_with_faer() {
+    let mut worst = 0.0_f64;
+    for column in table() {
+        for row in &column.rows {
+            for (limit, unit) in row.limits.iter().zip(units()) {
+                let first = limit.wave;
+                for part in [0.0, 0.9, 1.0, 1.1] {
+                    let velocity = unit.map(|e| part * limit.speed * e);
+                    let linearised = Linearised::about(&column.collision, row.tau, velocity);
+                    for k in [first, first.map(|k| 0.1 * k), [0.0; 3], [1.0, -0.5, 2.0]] {
+                        let own = linearised.spectral_radius(k).unwrap_or(f64::NAN);
+                        worst = worst.max(difference(&linearised, k, own));
+                    }
+                }
+            }
+        }
+    }
+    // Simple eigenvalues agree to about 1e-14; nearly defective pairs to the square root of the rounding, 1e-8.
+    assert!(worst < 3e-8, "{worst:e}");
+}
+
+fn units() -> [[f64; 3]; 3] {
+    lahar::stability::Direction::ALL.map(lahar::stability::Direction::unit)
+}
+
+fn difference(linearised: &Linearised, k: [f64; 3], own: f64) -> f64 {
+    let matrix = linearised.amplification(k);
+    let theirs = Mat::from_fn(Q, Q, |i, j| matrix[i][j]).eigenvalues();
+    let radius = theirs
+        .map_or(f64::NAN, |all| all.iter().map(|x| (x.re * x.re + x.im * x.im).sqrt()).fold(0.0, f64::max));
+    let apart = (own - radius).abs();
+    if apart.is_nan() { f64::INFINITY } else { apart }
+}
