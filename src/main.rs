@@ -107,7 +107,7 @@ impl BackendName {
     }
 
     fn layout(self) -> Layout {
-        Layout::of(self.backend().name())
+        self.backend().layout()
     }
 }
 

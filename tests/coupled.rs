@@ -7,6 +7,7 @@ use std::process::{Command, Output};
 use lahar::output::csv::Series;
 use lahar::output::summary::Summary;
 use lahar::plan::Plan;
+use lahar::plan::coupled::SubStepsFrom;
 use lahar::scene::{self, Scene};
 use lahar::setup::BodyForce;
 
@@ -117,7 +118,7 @@ fn sub_steps_and_rules_of_the_scene_reach_the_solver() {
     assert_eq!(suspension.refill, lahar::coupling::GrainRefill::Neighbours);
     assert!(suspension.lubrication.is_none());
     let n = plan.numbers.grains.as_ref().expect("numbers");
-    assert_eq!((n.sub_steps_from, n.time_step_s), ("given", plan.units.dt_s / 40.0));
+    assert_eq!((n.sub_steps_from, n.time_step_s), (SubStepsFrom::Given, plan.units.dt_s / 40.0));
 }
 
 /// What plan says about small and light grains: warnings with numbers in them.
@@ -126,12 +127,14 @@ fn plan_warns_of_small_and_of_light_grains() {
     let small = changed("settling_sphere", |json| {
         json["grains"]["sets"][0]["place"]["list"][0]["radius_m"] = 0.004.into();
     });
-    let warnings = plan(&small).numbers.warnings.join("\n");
+    let warnings =
+        plan(&small).numbers.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
     assert!(warnings.contains("radius of 1.6 cells: expect its drag to be off by 13.0 %"), "{warnings}");
     let light = changed("floating_sphere", |json| {
         json["grains"]["materials"][0]["density_kg_per_m3"] = 400.0.into();
     });
-    let warnings = plan(&light).numbers.warnings.join("\n");
+    let warnings =
+        plan(&light).numbers.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
     assert!(warnings.contains("a grain has 0.4 of the fluid's density"), "{warnings}");
 }
 

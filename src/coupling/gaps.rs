@@ -16,7 +16,7 @@ const MARGIN: f64 = 0.25;
 
 /// Largest share of a pair's reduced mass over the grains' step that the friction of a gap may reach: an explicit
 /// step overshoots beyond 2 and is accurate far below.
-const STIFFEST: f64 = 0.5;
+pub(crate) const STIFFEST: f64 = 0.5;
 
 /// Largest share of a grain's mass, or moment of inertia, over the grains' step that all of its gaps together may
 /// reach. A clump wedged in may have ten of them: two neighbours that both do damp each other at twice this rate, and

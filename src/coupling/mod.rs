@@ -38,6 +38,7 @@ mod subcycle;
 pub use crate::setup::suspension::{
     GrainRefill, GrainWall, Lubrication, Mutant, RefillMass, Suspension, VolumeRule,
 };
+pub(crate) use gaps::STIFFEST;
 pub use host::{Host, Place, Uncovered};
 pub use immersed::{BodyLoad, Immersed, body_force};
 pub use lubrication::{normal as lubrication_normal, tangential as lubrication_tangential};

@@ -19,7 +19,7 @@ pub struct Need {
 
 pub(super) fn passes(scene: &Scene, setup: &Setup) -> Vec<Need> {
     let need = |pass, needed, because| Need { pass, needed, because };
-    let constant = setup.fluids.iter().all(|law| matches!(law, crate::rheology::Law::Newtonian { .. }));
+    let constant = setup.fluids.iter().all(|law| law.constant_tau().is_some());
     let lagged = matches!(setup.yielding, YieldTreatment::LaggedClamped { .. });
     let forced = match setup.force {
         BodyForce::Constant(f) => norm(f) > 0.0,

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Rheology;
 use crate::geometry::{Axis, Shape};
 
 /// The fluid that fills the box (except for `layers` and `solids`).
@@ -75,51 +76,6 @@ pub struct FluidShape {
     pub name: Option<String>,
     /// Where it is.
     pub shape: Shape,
-}
-
-/// Shear stress magnitude σ as a function of the shear rate γ̇.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Rheology {
-    /// σ = μ γ̇.
-    Newtonian {
-        /// Dynamic viscosity μ, Pa s.
-        viscosity_pa_s: f64,
-    },
-    /// σ = σ0 + μ γ̇, rigid below σ0.
-    Bingham {
-        /// Yield stress σ0, Pa.
-        yield_stress_pa: f64,
-        /// Plastic viscosity μ, Pa s.
-        plastic_viscosity_pa_s: f64,
-    },
-    /// σ = σ0 + K γ̇ⁿ, rigid below σ0.
-    HerschelBulkley {
-        /// Yield stress σ0, Pa.
-        yield_stress_pa: f64,
-        /// Consistency K, Pa sⁿ.
-        consistency_pa_s_n: f64,
-        /// Flow index n.
-        flow_index: f64,
-    },
-    /// σ = K γ̇ⁿ.
-    PowerLaw {
-        /// Consistency K, Pa sⁿ.
-        consistency_pa_s_n: f64,
-        /// Flow index n.
-        flow_index: f64,
-    },
-    /// σ = σ0 (1 − exp(−m γ̇)) + K γ̇ⁿ: a smooth stand-in for a yield stress.
-    Papanastasiou {
-        /// Yield stress σ0, Pa.
-        yield_stress_pa: f64,
-        /// Consistency K, Pa sⁿ.
-        consistency_pa_s_n: f64,
-        /// Flow index n.
-        flow_index: f64,
-        /// Growth time m, s.
-        growth_s: f64,
-    },
 }
 
 /// Force per volume, the same in all cells.

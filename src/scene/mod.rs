@@ -1,6 +1,7 @@
 //! The scene file: SI units, checked, nothing numerical yet.
 
 mod check;
+mod checker;
 mod coupled;
 mod domain;
 pub mod dry;
@@ -9,27 +10,28 @@ mod fluid;
 pub mod force;
 mod nearest;
 mod numerics;
+mod operator;
 mod parse;
+mod rheology;
 
 use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::Axis;
-
 pub use coupled::{Coupling, GrainRefillChoice, GrainWallChoice, LubricationChoice, LubricationRules};
 pub use domain::{Boundaries, Boundary, Domain, FACE_KEYS};
 pub use error::{Located, SceneError, SceneProblem};
 pub use fluid::{
     BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialPressure, InitialVelocity, Layer,
-    Rheology, Solid,
+    Solid,
 };
 pub use numerics::{
-    Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Measure, Numerics, Operator, Output,
-    PrecisionChoice, Probe, RefillChoice, Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice,
-    YieldChoice,
+    Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Measure, Numerics, Output, PrecisionChoice,
+    Probe, RefillChoice, Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
+pub use operator::Operator;
+pub use rheology::Rheology;
 
 /// One experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -77,13 +79,9 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The axis along which gravity and body force are strongest (z before y before x), normal to beds and
-    /// levels; `None` without a force.
-    #[must_use]
-    pub fn up_axis(&self) -> Option<Axis> {
-        let forces = force::extreme_forces(&force::total_force(self));
-        let pulls = forces.iter().flatten().any(|f| *f != 0.0);
-        pulls.then(|| force::up(self).0)
+    /// Laws of all its fluids: that of `fluid`, then those of the layers.
+    pub fn rheologies(&self) -> impl Iterator<Item = &Rheology> {
+        std::iter::once(&self.fluid.rheology).chain(self.layers.iter().map(|layer| &layer.rheology))
     }
 }
 

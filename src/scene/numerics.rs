@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Operator;
 use super::dry::GrainProbe;
 use crate::geometry::Axis;
 
@@ -132,20 +133,6 @@ pub struct Collision {
     /// and `central_moment`, whose odd moments would grow along a surface that moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lowered_below: Option<f64>,
-}
-
-/// The four operators.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Operator {
-    /// One relaxation time.
-    Bgk,
-    /// Two relaxation times.
-    Trt,
-    /// Central moments about the co-moving state.
-    CentralMoment,
-    /// Recursive-regularised.
-    Regularised,
 }
 
 /// How the relaxation time follows from the law.

@@ -1,10 +1,12 @@
 //! State, steps and the backends that take them.
 
 pub mod books;
+pub mod boundary_cells;
 pub mod check;
 pub mod choose;
 pub mod fast;
 pub mod initial;
+pub mod layout;
 pub mod physics;
 pub mod plain;
 pub mod run;

@@ -1,7 +1,7 @@
 //! Checks of grains in a fluid.
 
-use super::{Checker, SceneError, SceneProblem};
-use crate::scene::{Boundary, LubricationChoice, Scene, dry};
+use crate::scene::checker::Checker;
+use crate::scene::{Boundary, LubricationChoice, Scene, SceneError, SceneProblem, dry};
 
 /// Most steps of the grains in a step of the fluid.
 const MOST_SUB_STEPS: f64 = 100_000.0;

@@ -1,8 +1,8 @@
 //! Checks of numerical choices and of when to stop.
 
-use super::{Checker, SceneError, SceneProblem};
+use crate::scene::checker::Checker;
 use crate::scene::{
-    Arrested, ClampLimits, Collision, Numerics, Operator, PrecisionChoice, Stop, YieldChoice,
+    Arrested, ClampLimits, Collision, Numerics, PrecisionChoice, SceneError, SceneProblem, Stop, YieldChoice,
 };
 
 const STEP_KEYS: &[&str] = &["time_step_s", "relaxation_time", "target_mach"];
@@ -72,7 +72,7 @@ fn time_step(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {
 
 fn collision(at: &Checker, collision: &Collision) -> Result<(), SceneError> {
     let path = "numerics.collision";
-    let one_rate = matches!(collision.operator, Some(Operator::Bgk | Operator::Regularised));
+    let one_rate = collision.operator.is_some_and(|operator| !operator.has_odd_rate());
     let given =
         [("magic", collision.magic), ("floor", collision.floor), ("lowered_below", collision.lowered_below)];
     for (key, value) in given {

@@ -1,9 +1,9 @@
 //! Checks of outputs and probes.
 
-use super::{Checker, SceneError, SceneProblem};
 use crate::geometry::{Axis, Shape};
+use crate::scene::checker::Checker;
 use crate::scene::nearest::nearest;
-use crate::scene::{Cadence, Measure, Scene};
+use crate::scene::{Cadence, Measure, Scene, SceneError, SceneProblem};
 
 pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
     let end = scene.stop.end_time_s;

@@ -3,7 +3,11 @@
 use super::check_place::placement;
 use super::{ClumpMembers, Contact, ContactLaw, DryScene, GrainMeasure, GrainSolid, Needs, Target};
 use crate::geometry::{Axis, Shape};
-use crate::scene::check::{Checker, boundaries, cadence, check_arrested, check_gravity};
+use crate::scene::check::domain::boundaries;
+use crate::scene::check::fluid::check_gravity;
+use crate::scene::check::numerics::check_arrested;
+use crate::scene::check::output::cadence;
+use crate::scene::checker::Checker;
 use crate::scene::nearest::nearest;
 use crate::scene::{FACE_KEYS, SceneError, SceneProblem};
 

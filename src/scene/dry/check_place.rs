@@ -3,7 +3,7 @@
 use super::check::some;
 use super::{GrainSet, Placement, SizeChoice};
 use crate::geometry::Shape;
-use crate::scene::check::Checker;
+use crate::scene::checker::Checker;
 use crate::scene::{SceneError, SceneProblem};
 
 /// Checks where a set is, and how large its grains are.

@@ -7,6 +7,7 @@ pub mod instructions;
 pub mod kernel;
 pub mod layout;
 pub mod memory;
+pub mod predict;
 pub mod registers;
 mod report;
 pub mod rim;
@@ -23,6 +24,7 @@ mod x86_single;
 use crate::collision::{CentralMoment, CollisionChoice};
 use crate::rheology::{Bingham, HerschelBulkley, Law, Newtonian, Prepared};
 use crate::setup::{Precision, Setup};
+use crate::solver::layout::Layout;
 use crate::solver::physics::{Physics, Standard};
 use crate::solver::run::{Backend, Run, StartError};
 use element::Element;
@@ -39,6 +41,10 @@ pub struct Fast {
 impl Backend for Fast {
     fn name(&self) -> &'static str {
         "fast"
+    }
+
+    fn layout(&self) -> Layout {
+        Layout::Blocks
     }
 
     fn start(&self, setup: &Setup) -> Result<Box<dyn Run>, StartError> {

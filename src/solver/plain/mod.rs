@@ -4,6 +4,7 @@
 //! pass reads one array and writes another, so the result does not depend on the number of threads.
 
 pub mod cell;
+pub mod memory;
 mod run;
 mod surface;
 
