@@ -181,6 +181,9 @@ pub enum SceneProblem {
         "this measure needs a fluid around the grains\n  allowed: only in scenes with `fluid`\n  way out: remove the probe"
     )]
     NeedsFluid,
+    /// Only with grains.
+    #[error("this measure needs grains\n  allowed: only in scenes with `grains`\n  way out: remove the probe")]
+    NeedsGrains,
     /// Not together with grains in the fluid.
     #[error(
         "{what} cannot be had together with grains\n  allowed: {allowed}\n  way out: leave one of them out"

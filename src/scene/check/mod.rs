@@ -5,12 +5,14 @@ mod domain;
 mod fluid;
 mod numerics;
 mod output;
+mod probes;
 mod surface;
 
 pub(super) use domain::boundaries;
 pub(super) use fluid::check_gravity;
 pub(super) use numerics::check_arrested;
 pub(super) use output::cadence;
+pub(super) use probes::{Place, known, probes};
 
 use super::{Scene, SceneError, SceneProblem};
 use crate::geometry::{Axis, Shape};
