@@ -38,7 +38,7 @@ fn scenes() -> Vec<PathBuf> {
 #[test]
 fn every_scene_of_the_package_has_a_plan() {
     for path in scenes() {
-        let scene = scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let scene = scene::load_flow(&path).unwrap_or_else(|error| panic!("{error}"));
         let plan = Plan::new(&scene).unwrap_or_else(|error| panic!("{error}"));
         assert!(plan.steps > 0 && plan.numbers.mach <= 0.2, "{}", path.display());
     }

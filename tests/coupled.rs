@@ -32,7 +32,7 @@ fn path_of(name: &str) -> PathBuf {
 }
 
 fn load(name: &str) -> Scene {
-    scene::load(&path_of(name)).unwrap_or_else(|error| panic!("{error}"))
+    scene::load_flow(&path_of(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn plan(scene: &Scene) -> Plan {
@@ -44,7 +44,8 @@ fn changed(name: &str, change: impl Fn(&mut serde_json::Value)) -> Scene {
     let text = std::fs::read_to_string(path_of(name)).expect("a scene");
     let mut json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     change(&mut json);
-    scene::from_json(&json.to_string(), "changed.json").unwrap_or_else(|error| panic!("{error}"))
+    scene::flow_from_json(&json.to_string(), "changed.json", Path::new("."))
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Runs a scene with the command.
@@ -62,7 +63,7 @@ fn every_coupled_scene_has_a_plan() {
     paths.sort();
     assert!(paths.len() >= 12);
     for path in paths {
-        let scene = scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let scene = scene::load_flow(&path).unwrap_or_else(|error| panic!("{error}"));
         let plan = plan(&scene);
         let n = plan.numbers.grains.as_ref().expect("numbers of the grains");
         let name = path.display();

@@ -23,7 +23,7 @@ fn peak_is_what_the_plan_says() {
     // In the order of their size: a peak does not go down. Spacings give 90³ cells, most of them empty, and 80³.
     for (name, spacing_m) in [("show/slump_cone", 0.002), ("verify/taylor_green_3d", 0.00125)] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.json"));
-        let mut scene = scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let mut scene = scene::load_flow(&path).unwrap_or_else(|error| panic!("{error}"));
         scene.domain.spacing_m = spacing_m;
         let plan = Plan::new(&scene).unwrap_or_else(|error| panic!("{error}"));
         let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("peak_memory");

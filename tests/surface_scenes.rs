@@ -13,7 +13,8 @@ use lahar::solver::plain::Plain;
 fn run(name: &str, text: &str) -> PathBuf {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&out);
-    let scene = scene::from_json(text, &format!("{name}.json")).unwrap_or_else(|error| panic!("{error}"));
+    let scene = scene::flow_from_json(text, &format!("{name}.json"), Path::new("."))
+        .unwrap_or_else(|error| panic!("{error}"));
     let plan = Plan::with_memory(&scene, None).unwrap_or_else(|error| panic!("{error}"));
     let options = Options { out: out.clone(), backend: &Plain, threads: 1, until_s: None, quiet: true };
     run_scene::run(&scene, &plan, &options).unwrap_or_else(|error| panic!("{error}"));

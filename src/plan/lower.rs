@@ -6,8 +6,8 @@ use super::initial::initial_flow;
 use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::hydrostatic;
 use crate::scene::{
-    BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Measure, Operator,
-    PrecisionChoice, Probe, RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
+    BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Operator, PrecisionChoice,
+    RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
 use crate::setup::{
     BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
@@ -32,8 +32,7 @@ pub fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
     if cells.pool.is_some() {
         setup.free_surface = Some(free_surface(scene.numerics.free_surface.unwrap_or_default(), cells.fill));
     }
-    let is_force = |probe: &Probe| matches!(probe.measure, Measure::Force { .. });
-    setup.loads = scene.output.probes.iter().any(is_force);
+    setup.loads = scene.output.all_probes().any(|(probe, _)| probe.measure.loaded_solid().is_some());
     setup.solids = cells.solids;
     setup.fluid_of_cell = cells.fluid_of_cell;
     setup.solid_motion = solid_motion(scene, units);

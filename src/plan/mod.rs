@@ -14,6 +14,7 @@ pub mod memory;
 mod nearest_flow;
 mod needs;
 mod numbers;
+mod planned;
 mod print;
 mod print_target;
 mod scale;
@@ -32,6 +33,7 @@ pub use error::{PlanError, PlanProblem};
 pub use memory::available as available_memory;
 pub use needs::Need;
 pub use numbers::Numbers;
+pub use planned::Planned;
 pub use time_step::StepRule;
 pub use warning::Warning;
 

@@ -129,7 +129,9 @@ mod tests {
     use crate::plan::cells;
 
     fn pool_of(text: &str) -> Pool {
-        let scene = crate::scene::from_json(text, "scene.json").unwrap_or_else(|error| panic!("{error}"));
+        let folder = std::path::Path::new(".");
+        let scene = crate::scene::flow_from_json(text, "scene.json", folder);
+        let scene = scene.unwrap_or_else(|error| panic!("{error}"));
         cells::fill(&Facts::of(&scene)).pool.unwrap_or_else(|| panic!("no surface"))
     }
 

@@ -257,6 +257,11 @@ pub enum SceneProblem {
          way out: remove the probe"
     )]
     NeedsFluid,
+    /// Only with grains.
+    #[error(
+        "this measure needs grains\n  allowed: only in scenes with `grains`\n  way out: remove the probe"
+    )]
+    NeedsGrains,
     /// Not together with grains in the fluid.
     #[error(
         "{what} cannot be had together with grains\n  \

@@ -12,14 +12,8 @@ pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
         what: "a second fluid",
         allowed: "one fluid around the grains",
     })?;
-    dry::check_in_fluid(&view, scene.fluid.initial.is_some())?;
-    let names: Vec<&str> = scene.output.probes.iter().map(|probe| probe.name.as_str()).collect();
-    for (i, probe) in scene.output.grain_probes.iter().enumerate() {
-        let fresh = !names.contains(&probe.name.as_str());
-        at.ensure(fresh, &format!("output.grain_probes[{i}].name"), || SceneProblem::DuplicateName {
-            name: probe.name.clone(),
-        })?;
-    }
+    dry::check_in_fluid(&view)?;
+    super::output::check_grains(at, scene)?;
     coupling(at, scene)
 }
 

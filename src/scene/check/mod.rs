@@ -5,6 +5,7 @@ pub(super) mod domain;
 pub(super) mod fluid;
 pub(super) mod numerics;
 pub(super) mod output;
+pub(super) mod probes;
 mod surface;
 
 use super::checker::Checker;

@@ -18,8 +18,7 @@ use crate::geometry::Shape;
 
 pub(super) use check::{check, check_in_fluid};
 pub use contact::{Contact, ContactLaw, GrainMaterial, PairContact};
-pub(super) use output::Needs;
-pub use output::{GrainMeasure, GrainOutput, GrainProbe, GrainStop, Target};
+pub use output::{GrainOutput, GrainStop};
 pub use place::{
     ClumpMember, ClumpMembers, ClumpShape, GrainAt, GrainSet, LatticeKind, Orientations, Placement,
     SizeChoice,

@@ -1,91 +1,31 @@
-//! The files of a run without fluid.
+//! Files of grains, in a fluid or without.
 
 use std::path::{Path, PathBuf};
 
-use super::probes::{Sampler, columns, probes};
-use super::{View, walls};
+use super::walls;
 use crate::output::OutputError;
 use crate::output::csv::Series;
 use crate::output::pvd::Collection;
 use crate::output::vtp::{Cells, PolyData};
 use crate::plan::grains::{COLUMNS, GrainPlan};
-use crate::run_scene::RunError;
-use crate::scene::dry::DryScene;
+use crate::run::view::View;
 
 /// Knows the folder and what has been written.
-pub(super) struct Writer<'a> {
-    pub(super) files: Files<'a>,
-    pub(super) series: Series,
-    /// Columns of each probe, for the plots.
-    pub(super) groups: Vec<(String, usize)>,
-}
-
-/// Files of the grains themselves.
-pub(crate) struct Files<'a> {
+pub(in crate::run) struct Files<'a> {
     folder: PathBuf,
-    pub(super) plan: &'a GrainPlan,
-    pub(super) size_m: [f64; 3],
+    plan: &'a GrainPlan,
+    size_m: [f64; 3],
     collections: [(&'static str, Collection); 4],
     written: usize,
 }
 
-impl<'a> Writer<'a> {
-    pub fn new(scene: &DryScene, plan: &'a GrainPlan, folder: &Path) -> Result<Self, RunError> {
-        for path in [folder.to_path_buf(), folder.join("plots")] {
-            std::fs::create_dir_all(&path).map_err(|source| RunError::Folder { path, source })?;
-        }
-        let probes = probes(scene);
-        let named: Vec<_> = probes.iter().flat_map(columns).collect();
-        let mut header = vec![("time", "s")];
-        header.extend(named.iter().map(|(name, unit)| (name.as_str(), *unit)));
-        Ok(Self {
-            files: Files::new(scene, plan, folder),
-            series: Series::new(&header),
-            groups: groups(scene),
-        })
-    }
-
-    /// A file of the folder.
-    pub fn path(&self, name: &str) -> PathBuf {
-        self.files.path(name)
-    }
-
-    /// Adds a row to the time series.
-    pub fn row(&mut self, sampler: &mut Sampler, grains: &View<'_>) -> Result<(), RunError> {
-        let mut row = vec![grains.time];
-        row.extend(sampler.values(grains, &|_, _| Vec::new()));
-        self.series.push(&row).map_err(RunError::Output)
-    }
-
-    /// Writes grains and contacts, and the series so far.
-    pub fn files(&mut self, grains: &View<'_>) -> Result<(), RunError> {
-        self.files.snapshot(grains).map_err(RunError::Output)?;
-        self.finish_series()
-    }
-
-    /// Writes the series so far.
-    pub fn finish_series(&self) -> Result<(), RunError> {
-        self.series.write(&self.path("series.csv")).map_err(RunError::Output)
-    }
-
-    /// Series, tables that a scene can start from, and pictures.
-    pub fn finish(&self, grains: &View<'_>) -> Result<(), RunError> {
-        self.finish_series()?;
-        self.files.tables(grains).and_then(|()| self.plots(grains)).map_err(RunError::Output)
-    }
-}
-
-/// Probes and the number of their columns.
-pub(crate) fn groups(scene: &DryScene) -> Vec<(String, usize)> {
-    probes(scene).iter().map(|probe| (probe.name.clone(), columns(probe).len())).collect()
-}
-
 impl<'a> Files<'a> {
-    pub fn new(scene: &DryScene, plan: &'a GrainPlan, folder: &Path) -> Self {
+    /// Of a plan in a box of edges `size_m`, m.
+    pub fn new(plan: &'a GrainPlan, size_m: [f64; 3], folder: &Path) -> Self {
         Self {
             folder: folder.to_path_buf(),
             plan,
-            size_m: scene.domain.size_m,
+            size_m,
             collections: ["grains", "spheres", "contacts", "walls"].map(|name| (name, Collection::default())),
             written: 0,
         }
@@ -93,10 +33,6 @@ impl<'a> Files<'a> {
 
     fn path(&self, name: &str) -> PathBuf {
         self.folder.join(name)
-    }
-
-    pub fn folder(&self) -> &Path {
-        &self.folder
     }
 
     /// Grains, their spheres, contacts and walls now.

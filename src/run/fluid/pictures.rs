@@ -1,90 +1,109 @@
-//! Plots and pictures of a run.
+//! Plots and pictures of a fluid.
 
-use super::error::RunError;
-use super::probes::{PROFILE_COLUMNS, SECTION_COLUMNS, columns, is_fluid, profile, unyielded};
-use super::writer::Writer;
+use std::ops::Range;
+
+use super::files::Section;
 use crate::free_surface::Kind;
 use crate::geometry::Axis as Direction;
 use crate::output::picture::{self, Picture};
 use crate::output::plot::{Axis, Plot, Series as Curve};
 use crate::output::{OutputError, atomic, svg};
-use crate::scene::Measure;
-use crate::setup::Face;
-use crate::solver::run::{Fields, Run};
+use crate::run::measure::Probes;
+use crate::run::measure::fields::{PROFILE_COLUMNS, is_fluid, profile, unyielded};
+use crate::run::measure::fluid::{Frame, SECTION_COLUMNS};
+use crate::run::recorder::Recorder;
+use crate::scene::{Measure, Probe};
+use crate::setup::{Face, Setup};
+use crate::solver::run::Fields;
 
 /// Most curves of a section at different times.
 const CURVES: usize = 6;
 
-impl Writer<'_> {
-    /// Series and plots at the end.
-    pub fn finish(&self, run: &dyn Run, fields: &Fields) -> Result<(), RunError> {
-        self.finish_series()?;
-        self.plots(fields).map_err(RunError::Output)?;
-        let Some(grains) = &self.grains else { return Ok(()) };
-        let time = self.sampler.units.time_to_si(run.step() as f64);
-        grains.finish(run, time, &self.series, &self.title).map_err(RunError::Output)
-    }
+/// What plots at the end are made of.
+pub(super) struct Plots<'a> {
+    pub recorder: &'a Recorder,
+    pub title: &'a str,
+    pub setup: &'a Setup,
+    pub frame: &'a Frame,
+    /// The fields at the end.
+    pub fields: &'a Fields,
+    pub sections: &'a [Section],
+    pub has_grains: bool,
+}
 
-    fn plots(&self, fields: &Fields) -> Result<(), OutputError> {
-        let mut column = 1;
-        for probe in &self.probes {
-            let count = columns(probe, self.grains.is_some()).len();
-            if matches!(probe.measure, Measure::Force { .. }) {
-                let parts = [
-                    ("force", 0..3),
-                    ("impulse", 3..6),
-                    ("wetted_area", 6..12),
-                    ("contact", 12..15),
-                    ("contact_impulse", 16..19),
-                ];
-                for (what, range) in parts.into_iter().filter(|(_, range)| range.end <= count) {
-                    let range = column + range.start..column + range.end;
-                    self.series_plot(&format!("{what}_{}", probe.name), range)?;
-                }
-            } else {
-                for column in column..column + count {
-                    let name = format!("series_{}", self.series.columns[column].name);
-                    self.series_plot(&name, column..column + 1)?;
-                }
-            }
-            column += count;
-            match probe.measure {
-                Measure::Profile { along } => self.profile_plot(&probe.name, along, fields)?,
-                Measure::SurfaceProfile { along, .. } => self.section_plot(&probe.name, along)?,
-                Measure::DepthMap { above_m } => {
-                    self.depth_picture(&format!("depth_{}", probe.name), fields, above_m)?;
-                }
-                _ => {}
+impl Plots<'_> {
+    /// Every probe about the fluid, speed and depth.
+    ///
+    /// # Errors
+    /// I/O.
+    pub fn draw(&self, probes: &Probes) -> Result<(), OutputError> {
+        for ((_, columns), (probe, about_grains)) in self.recorder.groups().iter().zip(probes.iter()) {
+            if !about_grains {
+                self.columns(probe, columns.clone())?;
+                self.file(probe)?;
             }
         }
-        self.speed_picture(fields)?;
-        let [a, b] = self.sampler.upright.across();
+        self.speed_picture()?;
+        let [a, b] = self.frame.upright.across();
         let wide = self.setup.extents[a] > 1 && self.setup.extents[b] > 1;
         if wide && self.setup.free_surface.is_some() {
-            self.depth_picture("depth", fields, None)?;
+            self.depth_picture("depth", None)?;
         }
         Ok(())
     }
 
+    /// A plot per column of a probe; of a force one for each of its parts.
+    fn columns(&self, probe: &Probe, columns: Range<usize>) -> Result<(), OutputError> {
+        if probe.measure.loaded_solid().is_none() {
+            for column in columns {
+                let name = format!("series_{}", self.recorder.series().columns[column].name);
+                self.series_plot(&name, column..column + 1)?;
+            }
+            return Ok(());
+        }
+        let parts = [
+            ("force", 0..3),
+            ("impulse", 3..6),
+            ("wetted_area", 6..12),
+            ("contact", 12..15),
+            ("contact_impulse", 16..19),
+        ];
+        for (what, range) in parts.into_iter().filter(|(_, range)| range.end <= columns.len()) {
+            let range = columns.start + range.start..columns.start + range.end;
+            self.series_plot(&format!("{what}_{}", probe.name), range)?;
+        }
+        Ok(())
+    }
+
+    /// A plot of what a probe writes into files.
+    fn file(&self, probe: &Probe) -> Result<(), OutputError> {
+        match probe.measure {
+            Measure::Profile { along } => self.profile_plot(&probe.name, along),
+            Measure::SurfaceProfile { along, .. } => self.section_plot(&probe.name, along),
+            Measure::DepthMap { above_m } => self.depth_picture(&format!("depth_{}", probe.name), above_m),
+            _ => Ok(()),
+        }
+    }
+
     /// Columns of the time series in one plot; those that are zero throughout only when alone.
-    fn series_plot(&self, file: &str, range: std::ops::Range<usize>) -> Result<(), OutputError> {
-        let alone = range.len() == 1;
-        let first = &self.series.columns[range.start];
+    fn series_plot(&self, file: &str, range: Range<usize>) -> Result<(), OutputError> {
+        let (series, alone) = (self.recorder.series(), range.len() == 1);
+        let first = &series.columns[range.start];
         let unit = if first.unit == "-" { "" } else { first.unit.as_str() };
         let label = if alone { first.name.as_str() } else { file };
-        let mut plot = Plot::new(&self.title, Axis::linear("time", "s"), Axis::linear(label, unit));
+        let mut plot = Plot::new(self.title, Axis::linear("time", "s"), Axis::linear(label, unit));
         for column in range {
-            let points: Vec<[f64; 2]> = self.series.rows.iter().map(|row| [row[0], row[column]]).collect();
+            let points: Vec<[f64; 2]> = series.rows.iter().map(|row| [row[0], row[column]]).collect();
             if alone || points.iter().any(|point| point[1] != 0.0) {
-                plot = plot.with(Curve::line(&self.series.columns[column].name, points));
+                plot = plot.with(Curve::line(&series.columns[column].name, points));
             }
         }
         self.svg(&format!("{file}.svg"), &svg::draw(&plot)?)
     }
 
-    fn profile_plot(&self, name: &str, along: Direction, fields: &Fields) -> Result<(), OutputError> {
+    fn profile_plot(&self, name: &str, along: Direction) -> Result<(), OutputError> {
         debug_assert_eq!(PROFILE_COLUMNS[1].0, "velocity_x");
-        let rows = profile(along, self.setup, fields, &self.sampler.units);
+        let rows = profile(along, self.setup, self.fields, &self.frame.units);
         let x = Axis::linear(along.letter().to_string(), "m");
         let mut plot = Plot::new(format!("{}: {name}", self.title), x, Axis::linear("velocity", "m/s"));
         for (component, letter) in ["x", "y", "z"].iter().enumerate() {
@@ -122,8 +141,7 @@ impl Writer<'_> {
     /// upright one, and a mirror plane if there is one.
     fn plane(&self) -> (Direction, usize) {
         let n = self.setup.extents;
-        let upright =
-            |axis: &Direction| self.setup.free_surface.is_none() || *axis != self.sampler.upright.up;
+        let upright = |axis: &Direction| self.setup.free_surface.is_none() || *axis != self.frame.upright.up;
         let axes = Direction::ALL.into_iter().rev().filter(upright);
         let normal = axes.min_by_key(|axis| n[axis.index()]).unwrap_or(Direction::Z);
         let a = normal.index();
@@ -137,8 +155,8 @@ impl Writer<'_> {
     }
 
     /// Speed in one plane; not for columns and single cells.
-    fn speed_picture(&self, fields: &Fields) -> Result<(), OutputError> {
-        let extents = self.setup.extents;
+    fn speed_picture(&self) -> Result<(), OutputError> {
+        let (extents, fields) = (self.setup.extents, self.fields);
         let (normal, at) = self.plane();
         let [a, b] = normal.others();
         if extents[a] < 2 || extents[b] < 2 {
@@ -159,21 +177,21 @@ impl Writer<'_> {
             if !solid(*c) && !is_fluid(self.setup, fields, *c) {
                 return f64::NAN;
             }
-            let [x, y, z] = self.sampler.units.velocities_to_si(fields.velocity[*c]);
+            let [x, y, z] = self.frame.units.velocities_to_si(fields.velocity[*c]);
             (x * x + y * y + z * z).sqrt()
         };
         let plug = unyielded(self.setup, fields);
         let has_plug = plug.iter().any(|p| *p);
         let picture = Picture {
-            title: self.title.clone(),
+            title: self.title.to_owned(),
             label: "speed".to_owned(),
             unit: "m/s".to_owned(),
             extents: [extents[a], extents[b]],
-            spacing: self.sampler.units.dx_m,
+            spacing: self.frame.units.dx_m,
             length_unit: "m".to_owned(),
             axes: [a, b].map(|axis| Direction::ALL[axis].letter().to_string()),
             values: cells.iter().map(speed).collect(),
-            solid: if self.setup.solids.is_empty() && self.grains.is_none() {
+            solid: if self.setup.solids.is_empty() && !self.has_grains {
                 Vec::new()
             } else {
                 cells.iter().map(|&c| solid(c)).collect()
@@ -184,16 +202,16 @@ impl Writer<'_> {
     }
 
     /// Depth of all columns, seen from above.
-    fn depth_picture(&self, name: &str, fields: &Fields, above_m: Option<f64>) -> Result<(), OutputError> {
-        let [a, b] = self.sampler.upright.across();
-        let columns = self.sampler.upright.columns(self.setup, fields, &self.sampler.units, above_m);
+    fn depth_picture(&self, name: &str, above_m: Option<f64>) -> Result<(), OutputError> {
+        let [a, b] = self.frame.upright.across();
+        let columns = self.frame.upright.columns(self.setup, self.fields, &self.frame.units, above_m);
         let depth = columns.iter().map(|column| if column.depth > 0.0 { column.depth } else { f64::NAN });
         let picture = Picture {
-            title: self.title.clone(),
+            title: self.title.to_owned(),
             label: "depth".to_owned(),
             unit: "m".to_owned(),
             extents: [a, b].map(|axis| self.setup.extents[axis]),
-            spacing: self.sampler.units.dx_m,
+            spacing: self.frame.units.dx_m,
             length_unit: "m".to_owned(),
             axes: [a, b].map(|axis| Direction::ALL[axis].letter().to_string()),
             values: depth.collect(),
@@ -204,6 +222,6 @@ impl Writer<'_> {
     }
 
     fn svg(&self, name: &str, text: &str) -> Result<(), OutputError> {
-        atomic::write(&self.path("plots").join(name), text.as_bytes())
+        atomic::write(&self.recorder.path("plots").join(name), text.as_bytes())
     }
 }

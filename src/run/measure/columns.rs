@@ -8,7 +8,7 @@ use crate::units::Units;
 
 /// Which way columns stand.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Upright {
+pub(in crate::run) struct Upright {
     /// The axis of the columns.
     pub up: Axis,
     /// Whether they stand on the low end of it.
@@ -17,7 +17,7 @@ pub(super) struct Upright {
 
 /// One column, m and m/s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Column {
+pub(in crate::run) struct Column {
     /// Top of the highest solid below the lowest fluid; without fluid, of the solids at the bottom.
     pub bed: f64,
     /// Height of the fluid, all gaps closed.
