@@ -8,6 +8,7 @@ pub type PlanError = Located<PlanProblem>;
 
 /// What is wrong. Every message says what was found, what is allowed and why, and a way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the message above each variant says what its fields are")]
 pub enum PlanProblem {
     /// No fluid cell left.
     #[error(

@@ -24,13 +24,19 @@ pub enum TargetError {
     #[error(
         "`{found}` is not a number\n  allowed: a share or a percentage\n  way out: for example `1%` or `0.01`"
     )]
-    NotANumber { found: String },
+    NotANumber {
+        /// As given.
+        found: String,
+    },
     /// A number that is no error to aim at.
     #[error(
         "found {found}\n  allowed: 1e-6 to 0.5 (0.0001% to 50%); below that rounding and compressibility decide, above it \
          nothing is computed\n  way out: for example `1%` or `0.01`"
     )]
-    OutOfRange { found: String },
+    OutOfRange {
+        /// As given.
+        found: String,
+    },
 }
 
 impl FromStr for Target {

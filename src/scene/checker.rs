@@ -46,6 +46,11 @@ impl Checker<'_> {
         self.ensure(found >= 0.0, path, || SceneProblem::Negative { found, unit, because, way_out })
     }
 
+    /// At least one of something.
+    pub(super) fn some(&self, path: &str, count: usize, what: &'static str) -> Result<(), SceneError> {
+        self.ensure(count > 0, path, || SceneProblem::EmptyList { what })
+    }
+
     /// A name that can be a column or part of a file name, and is not among `used`.
     pub(super) fn name(&self, path: &str, name: &str, used: &mut Vec<String>) -> Result<(), SceneError> {
         let good =

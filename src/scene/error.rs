@@ -2,41 +2,18 @@
 
 use std::fmt;
 
-/// A problem and where it is: file (without folder) and JSON path.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Located<P> {
-    /// File name.
-    pub file: String,
-    /// JSON path such as `fluid.rheology.bingham.yield_stress_pa`; empty for the file as a whole.
-    pub path: String,
-    /// What is wrong; boxed, so that results stay small.
-    pub problem: Box<P>,
-}
-
-impl<P> Located<P> {
-    /// A problem at a place.
-    pub fn new(file: &str, path: impl Into<String>, problem: P) -> Self {
-        Self { file: file.to_owned(), path: path.into(), problem: Box::new(problem) }
-    }
-}
-
-impl<P: fmt::Display> fmt::Display for Located<P> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.path.is_empty() {
-            write!(f, "{}: {}", self.file, self.problem)
-        } else {
-            write!(f, "{}: `{}`: {}", self.file, self.path, self.problem)
-        }
-    }
-}
-
-impl<P: std::error::Error> std::error::Error for Located<P> {}
+pub use super::located::Located;
+use super::words::{
+    choose, did_you_mean, found_keys, list, list_static, range, rename_or_add, rename_or_define,
+    rename_or_remove, with_space,
+};
 
 /// A problem found while reading or checking a scene.
 pub type SceneError = Located<SceneProblem>;
 
 /// What is wrong. Every message says what was found, what is allowed and why, and a way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the message above each variant says what its fields are")]
 pub enum SceneProblem {
     /// The file could not be read.
     #[error(
@@ -167,13 +144,8 @@ pub enum SceneProblem {
     #[error(
         "found {}\n  \
          allowed: {rule} of {}: {because}\n  \
-         way out: {}", found_keys(.found), list_static(.of), complete(.found, .rule))]
-    KeyCount {
-        found: Vec<&'static str>,
-        of: &'static [&'static str],
-        rule: &'static str,
-        because: &'static str,
-    },
+         way out: {}", found_keys(.found), list_static(.of), .rule.way_out(.found))]
+    KeyCount { found: Vec<&'static str>, of: &'static [&'static str], rule: KeyRule, because: &'static str },
     /// A key that has no effect here.
     #[error(
         "`{key}` has no effect here: {because}\n  \
@@ -381,52 +353,33 @@ pub enum SceneProblem {
     BeyondEnd { found: f64, end: f64 },
 }
 
-fn range(low: f64, high: f64) -> String {
-    if high == f64::INFINITY { format!("at least {low}") } else { format!("{low} to {high}") }
+/// How many of several keys a scene gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeyRule {
+    /// One of them, or none.
+    AtMostOne,
+    /// One of them.
+    ExactlyOne,
+    /// The least and the largest of one kind.
+    OnePair,
 }
 
-fn with_space(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
-}
-
-fn did_you_mean(nearest: Option<&String>) -> String {
-    nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
-}
-
-fn rename_or_remove(nearest: Option<&String>) -> String {
-    nearest.map_or_else(|| "remove it".to_owned(), |name| format!("rename it to `{name}`"))
-}
-
-fn rename_or_add(nearest: Option<&String>) -> String {
-    nearest.map_or_else(|| "name one of `solids`".to_owned(), |name| format!("write `{name}`"))
-}
-
-fn rename_or_define(nearest: Option<&String>, kind: &str) -> String {
-    nearest.map_or_else(|| format!("name a {kind} of the scene, or add it"), |name| format!("write `{name}`"))
-}
-
-fn choose(nearest: Option<&String>, allowed: &[String]) -> String {
-    nearest.or(allowed.first()).map_or_else(String::new, |name| format!("write `{name}`"))
-}
-
-fn list(names: &[String]) -> String {
-    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-}
-
-fn list_static(names: &[&str]) -> String {
-    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-}
-
-fn complete(found: &[&str], rule: &str) -> &'static str {
-    if rule.contains("pair") {
-        "give the least and the largest of one kind, and nothing else"
-    } else if found.is_empty() {
-        "add one of them"
-    } else {
-        "keep one of them"
+impl KeyRule {
+    fn way_out(self, found: &[&str]) -> &'static str {
+        match self {
+            Self::OnePair => "give the least and the largest of one kind, and nothing else",
+            Self::AtMostOne | Self::ExactlyOne if found.is_empty() => "add one of them",
+            Self::AtMostOne | Self::ExactlyOne => "keep one of them",
+        }
     }
 }
 
-fn found_keys(names: &[&str]) -> String {
-    if names.is_empty() { "none".to_owned() } else { list_static(names) }
+impl fmt::Display for KeyRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::AtMostOne => "at most one",
+            Self::ExactlyOne => "exactly one",
+            Self::OnePair => "one min-max pair",
+        })
+    }
 }

@@ -8,12 +8,14 @@ pub mod dry;
 mod error;
 mod fluid;
 pub mod force;
+mod located;
 mod nearest;
 mod numerics;
 mod operator;
 mod parse;
 pub mod probe;
 mod rheology;
+mod words;
 
 use std::path::{Path, PathBuf};
 
@@ -22,7 +24,7 @@ use serde::{Deserialize, Serialize};
 
 pub use coupled::{Coupling, GrainRefillChoice, GrainWallChoice, LubricationChoice, LubricationRules};
 pub use domain::{Boundaries, Boundary, Domain, FACE_KEYS};
-pub use error::{Located, SceneError, SceneProblem};
+pub use error::{KeyRule, Located, SceneError, SceneProblem};
 pub use fluid::{
     BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialPressure, InitialVelocity, Layer,
     Solid,

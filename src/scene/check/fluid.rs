@@ -3,7 +3,9 @@
 use crate::geometry::Axis;
 use crate::scene::checker::Checker;
 use crate::scene::force::norm;
-use crate::scene::{BodyForce, Boundary, Domain, Gravity, InitialVelocity, Scene, SceneError, SceneProblem};
+use crate::scene::{
+    BodyForce, Boundary, Domain, Gravity, InitialVelocity, KeyRule, Scene, SceneError, SceneProblem,
+};
 
 /// Solids and layers are numbered in one byte, 0 being fluid (or the first fluid).
 const MAX_ENTRIES: usize = 255;
@@ -39,7 +41,7 @@ pub(in crate::scene) fn check_gravity(at: &Checker, gravity: &Gravity) -> Result
         (direction, slope) => {
             let found = if direction.is_some() && slope.is_some() { OF.to_vec() } else { Vec::new() };
             let because = "both say where gravity points";
-            at.fail("gravity", SceneProblem::KeyCount { found, of: OF, rule: "exactly one", because })
+            at.fail("gravity", SceneProblem::KeyCount { found, of: OF, rule: KeyRule::ExactlyOne, because })
         }
     }
 }

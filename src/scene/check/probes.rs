@@ -4,7 +4,7 @@ use crate::geometry::{Axis, Shape};
 use crate::scene::checker::Checker;
 use crate::scene::nearest::nearest;
 use crate::scene::probe::{Needs, Subject, Target};
-use crate::scene::{FACE_KEYS, Measure, Probe, SceneError, SceneProblem};
+use crate::scene::{FACE_KEYS, KeyRule, Measure, Probe, SceneError, SceneProblem};
 
 /// A list of probes and what there is in its scene.
 pub(in crate::scene) struct Place {
@@ -185,7 +185,7 @@ fn force(
         (solid, on) => {
             let found = if solid.is_some() && on.is_some() { KEYS.to_vec() } else { Vec::new() };
             let because = "`solid` is pushed by fluid and grains, `on` by grains alone";
-            at.fail(path, SceneProblem::KeyCount { found, of: KEYS, rule: "exactly one", because })
+            at.fail(path, SceneProblem::KeyCount { found, of: KEYS, rule: KeyRule::ExactlyOne, because })
         }
     }
 }

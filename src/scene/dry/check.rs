@@ -10,7 +10,7 @@ use crate::scene::check::output::cadence;
 use crate::scene::check::probes::{Place, known, probes};
 use crate::scene::checker::Checker;
 use crate::scene::probe::Subject;
-use crate::scene::{SceneError, SceneProblem};
+use crate::scene::{KeyRule, SceneError, SceneProblem};
 
 /// Checks every value that can be judged without placing grains.
 pub fn check(scene: &DryScene) -> Result<(), SceneError> {
@@ -76,7 +76,7 @@ fn domain(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
 
 fn materials(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
     let list = &scene.grains.materials;
-    some(at, "grains.materials", list.len(), "a material")?;
+    at.some("grains.materials", list.len(), "a material")?;
     let mut names = Vec::new();
     for (i, m) in list.iter().enumerate() {
         let path = |key: &str| format!("grains.materials[{i}].{key}");
@@ -161,7 +161,7 @@ fn clumps(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
                 })?;
             }
             ClumpMembers::Spheres(members) => {
-                some(at, &format!("{path}.spheres"), members.len(), "a sphere")?;
+                at.some(&format!("{path}.spheres"), members.len(), "a sphere")?;
                 for (k, member) in members.iter().enumerate() {
                     let path = format!("{path}.spheres[{k}].radius_m");
                     at.positive(&path, member.radius_m, "m", "it is a radius", "remove the sphere")?;
@@ -173,7 +173,7 @@ fn clumps(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
 }
 
 fn sets(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
-    some(at, "grains.sets", scene.grains.sets.len(), "a set of grains")?;
+    at.some("grains.sets", scene.grains.sets.len(), "a set of grains")?;
     let materials: Vec<String> = scene.grains.materials.iter().map(|m| m.name.clone()).collect();
     let clumps: Vec<String> = scene.grains.clumps.iter().map(|c| c.name.clone()).collect();
     let mut names = Vec::new();
@@ -259,7 +259,7 @@ fn body(at: &Checker, i: usize, solid: &GrainSolid, size_m: [f64; 3]) -> Result<
             let because = "both say where the wall is";
             at.fail(
                 format!("solids[{i}]"),
-                SceneProblem::KeyCount { found, of: BODY, rule: "exactly one", because },
+                SceneProblem::KeyCount { found, of: BODY, rule: KeyRule::ExactlyOne, because },
             )
         }
     }
@@ -290,10 +290,6 @@ fn output(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
         sets: scene.grains.sets.iter().map(|s| s.name.clone()).collect(),
     };
     probes(at, &scene.output.probes, &place, &mut Vec::new())
-}
-
-pub(super) fn some(at: &Checker, path: &str, count: usize, what: &'static str) -> Result<(), SceneError> {
-    at.ensure(count > 0, path, || SceneProblem::EmptyList { what })
 }
 
 fn optional_name(

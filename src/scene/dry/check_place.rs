@@ -1,10 +1,9 @@
 //! Checks of the places and sizes of grains.
 
-use super::check::some;
 use super::{GrainSet, Placement, SizeChoice};
 use crate::geometry::Shape;
 use crate::scene::checker::Checker;
-use crate::scene::{SceneError, SceneProblem};
+use crate::scene::{KeyRule, SceneError, SceneProblem};
 
 /// Checks where a set is, and how large its grains are.
 pub(super) fn placement(
@@ -16,7 +15,7 @@ pub(super) fn placement(
     let radius = |path: &str, r: f64| at.positive(path, r, "m", "it is a radius", "a radius > 0");
     match &set.place {
         Placement::List(list) => {
-            some(at, &format!("{path}.list"), list.len(), "a grain")?;
+            at.some(&format!("{path}.list"), list.len(), "a grain")?;
             for (k, grain) in list.iter().enumerate() {
                 let path = |key: &str| format!("{path}.list[{k}].{key}");
                 radius(&path("radius_m"), grain.radius_m)?;
@@ -62,7 +61,10 @@ pub(super) fn placement(
                 (count, share) => {
                     let found = if count.is_some() && share.is_some() { OF.to_vec() } else { Vec::new() };
                     let because = "both say how many grains there are";
-                    at.fail(&path, SceneProblem::KeyCount { found, of: OF, rule: "exactly one", because })?;
+                    at.fail(
+                        &path,
+                        SceneProblem::KeyCount { found, of: OF, rule: KeyRule::ExactlyOne, because },
+                    )?;
                 }
             }
             self::sizes(at, &format!("{path}.sizes"), sizes)?;
