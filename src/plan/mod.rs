@@ -37,8 +37,11 @@ pub use planned::Planned;
 pub use time_step::StepRule;
 pub use warning::Warning;
 
+use self::cost::SPHERE_UPDATES_PER_SECOND;
+use self::coupled::{Coupled, Findings};
 use self::facts::Facts;
 use self::figures::Basis;
+use self::numbers::Given;
 use crate::scene::Scene;
 use crate::setup::Setup;
 pub use crate::solver::layout::Layout;
@@ -112,11 +115,27 @@ impl Plan {
         checks::memory(scene, &setup, layout, available).map_err(|problem| at("domain", problem))?;
         checks::finite(&setup).map_err(|problem| at("fluid", problem))?;
         let basis = Basis { facts: &facts, units: &units, setup: &setup, scales: &scales, steps, gap, pool };
-        let coupled = finished.as_ref();
-        let numbers = numbers::numbers(&numbers::Given { basis, rule, fluid_cells, layout, coupled });
+        let numbers = shown(&Given { basis, rule, fluid_cells, layout }, finished.as_ref());
         checks::numbers(&numbers, &setup).map_err(|problem| at(rule.path(), problem))?;
         Ok(Self { units, setup, steps, grains: finished.map(|(coupled, _)| coupled), numbers })
     }
+}
+
+/// Everything `lahar plan` shows.
+fn shown(given: &Given, coupled: Option<&(Coupled, Findings)>) -> Numbers {
+    let Basis { facts, units, setup, scales, pool, .. } = given.basis;
+    let mut numbers = numbers::numbers(given);
+    numbers.warnings = warnings::warnings(&numbers, &given.basis);
+    if let Some((coupled, findings)) = coupled {
+        let open = (setup.cells() as u64 - numbers.solid_cells) as f64 * units.dx_m * units.dx_m * units.dx_m;
+        let mixture_m3 = pool.map_or(open, |pool| pool.volume);
+        let grains = coupled::Given { facts, units, setup, coupled, findings, scales, mixture_m3 };
+        let (grains, warnings) = coupled::numbers(&grains);
+        numbers.estimated_seconds += grains.sphere_updates / SPHERE_UPDATES_PER_SECOND;
+        numbers.warnings.extend(warnings);
+        numbers.grains = Some(grains);
+    }
+    numbers
 }
 
 impl fmt::Debug for Plan {

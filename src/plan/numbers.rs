@@ -2,14 +2,13 @@
 
 use serde::Serialize;
 
-use super::cost::{CELL_UPDATES_PER_SECOND, SPHERE_UPDATES_PER_SECOND};
-use super::coupled::{self, Coupled, CoupledNumbers, Findings};
+use super::cost::CELL_UPDATES_PER_SECOND;
+use super::coupled::CoupledNumbers;
 use super::figures::{Basis, arrest_thickness, plug_slip, rounding_floor, tau_range};
 use super::memory::{Item, items};
 use super::needs::{Need, passes};
 use super::time_step::{StepRule, reference_viscosity};
 use super::warning::Warning;
-use super::warnings::warnings;
 use crate::scene::Operator;
 use crate::solver::layout::Layout;
 use crate::stability::max_stable_speed;
@@ -106,41 +105,13 @@ pub(super) struct Given<'a> {
     pub rule: StepRule,
     pub fluid_cells: u64,
     pub layout: Layout,
-    pub coupled: Option<&'a (Coupled, Findings)>,
-}
-
-pub(super) fn numbers(given: &Given) -> Numbers {
-    let Basis { units, setup, .. } = given.basis;
-    let mut numbers = of_the_fluid(given);
-    numbers.warnings = warnings(&numbers, &given.basis);
-    if let Some((coupled, findings)) = given.coupled {
-        let cells = (cells(given) - numbers.solid_cells) as f64;
-        let open = cells * units.dx_m * units.dx_m * units.dx_m;
-        let (grains, warnings) = coupled::numbers(&coupled::Given {
-            facts: given.basis.facts,
-            units,
-            setup,
-            coupled,
-            findings,
-            scales: given.basis.scales,
-            mixture_m3: given.basis.pool.map_or(open, |pool| pool.volume),
-        });
-        numbers.estimated_seconds += grains.sphere_updates / SPHERE_UPDATES_PER_SECOND;
-        numbers.warnings.extend(warnings);
-        numbers.grains = Some(grains);
-    }
-    numbers
-}
-
-/// Cells of the box.
-fn cells(given: &Given) -> u64 {
-    given.basis.setup.extents.iter().map(|&n| n as u64).product()
 }
 
 /// All but warnings and grains.
-fn of_the_fluid(given: &Given) -> Numbers {
+pub(super) fn numbers(given: &Given) -> Numbers {
     let basis @ Basis { facts, units, setup, scales, pool, steps, gap } = &given.basis;
-    let (scene, curve, cells) = (facts.scene, facts.curve(), cells(given));
+    let (scene, curve) = (facts.scene, facts.curve());
+    let cells = setup.cells() as u64;
     let solid_cells = setup.solids.iter().filter(|&&s| s != 0).count() as u64;
     let (u, length) = (scales.velocity, scales.length);
     let speed_lattice = units.velocity_to_lattice(u);

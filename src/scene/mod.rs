@@ -15,6 +15,7 @@ mod operator;
 mod parse;
 pub mod probe;
 mod rheology;
+mod view;
 mod words;
 
 use std::path::{Path, PathBuf};

@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 pub(super) use bytes::added_bytes;
 pub use classes::ClassNumbers;
+pub(super) use numbers::Given;
 pub use numbers::{CoupledNumbers, LubricationNumbers, SubStepsFrom};
-pub(super) use numbers::{Given, numbers};
 pub(super) use print::table;
 
 use self::sub_steps::{Stepping, gap_viscosity, sub_steps};
@@ -22,6 +22,7 @@ use super::error::{PlanError, PlanProblem};
 use super::facts::Facts;
 use super::grains::{GrainPlan, Placed, refusal, speed as impact};
 use super::scale::Scales;
+use super::warning::Warning;
 use crate::coupling::{GrainRefill, GrainWall, Lubrication, Suspension};
 use crate::dem::{Dem, Setup as Grains};
 use crate::scene::dry::DryScene;
@@ -262,4 +263,11 @@ fn lubrication(choice: LubricationChoice) -> Option<Lubrication> {
         smallest_gap: rules.smallest_gap_cells.unwrap_or(default.smallest_gap),
         tangential: rules.tangential.unwrap_or(default.tangential),
     })
+}
+
+/// What `lahar plan` shows about the grains, and its warnings.
+pub(super) fn numbers(given: &Given) -> (CoupledNumbers, Vec<Warning>) {
+    let numbers = numbers::numbers(given);
+    let warnings = warnings::warnings(given, &numbers);
+    (numbers, warnings)
 }

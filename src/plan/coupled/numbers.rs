@@ -5,14 +5,12 @@ use serde::Serialize;
 use super::bytes::{LINKS, added_bytes};
 use super::classes::{ClassNumbers, PACKING, classes};
 use super::speed::{HELD_ABOVE, yield_number};
-use super::warnings::warnings;
 use super::{Coupled, Findings, ratios};
 use crate::collision::CollisionChoice;
 use crate::coupling::{GrainRefill, GrainWall};
 use crate::dem::Setup as Grains;
 use crate::plan::facts::Facts;
 use crate::plan::scale::Scales;
-use crate::plan::warning::Warning;
 use crate::rheology::bagnold::Mixture;
 use crate::scene::{Boundary, FACE_KEYS, Scene};
 use crate::setup::Setup;
@@ -132,13 +130,12 @@ pub(super) fn drag_error(r: f64) -> f64 {
     0.05 * ratio * ratio * ratio
 }
 
-pub(in crate::plan) fn numbers(given: &Given) -> (CoupledNumbers, Vec<Warning>) {
+/// All that is shown about the grains but the warnings.
+pub(super) fn numbers(given: &Given) -> CoupledNumbers {
     let numbers = without_classes(given);
     let (mixture, spacing) = (mixture(given, &numbers), given.units.dx_m);
     let (classes, no_bagnold) = classes(&given.coupled.grains.setup, spacing, &mixture);
-    let numbers = CoupledNumbers { classes, no_bagnold, ..numbers };
-    let warnings = warnings(given, &numbers);
-    (numbers, warnings)
+    CoupledNumbers { classes, no_bagnold, ..numbers }
 }
 
 /// Grains and fluid in shear.

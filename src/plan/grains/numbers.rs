@@ -239,21 +239,20 @@ fn passes(setup: &Setup, n: &GrainNumbers) -> Vec<Need> {
     let rolling = setup.materials.compile().is_ok_and(|table| table.any_rolling);
     let moving = setup.walls.iter().any(crate::dem::Wall::shifts);
     let periodic = setup.period.0.iter().any(Option::is_some);
-    let need = |pass, needed, yes, no| Need { pass, needed, because: if needed { yes } else { no } };
     vec![
-        need(
+        Need::of(
             "contacts of grains",
             n.grains > 1,
             "lists of neighbours, made anew when a grain has moved",
             "one grain",
         ),
-        need("contacts with walls", n.walls > 0, "faces of the box or solids", "no wall"),
-        need("meshes", n.triangles > 0, "triangles in a tree", "no mesh"),
-        need("moving walls", moving, "a wall changes its place", "walls stay where they are"),
-        need("periodic images", periodic, "a periodic axis", "no periodic axis"),
-        need("rotation of clumps", n.clumps > 0, "clumps have three moments of inertia", "spheres only"),
-        need("rolling resistance", rolling, "a pair with `rolling_friction`", "no pair has any"),
-        need("fluid", false, "", "no populations, no fill levels, no cells: none is allocated"),
+        Need::of("contacts with walls", n.walls > 0, "faces of the box or solids", "no wall"),
+        Need::of("meshes", n.triangles > 0, "triangles in a tree", "no mesh"),
+        Need::of("moving walls", moving, "a wall changes its place", "walls stay where they are"),
+        Need::of("periodic images", periodic, "a periodic axis", "no periodic axis"),
+        Need::of("rotation of clumps", n.clumps > 0, "clumps have three moments of inertia", "spheres only"),
+        Need::of("rolling resistance", rolling, "a pair with `rolling_friction`", "no pair has any"),
+        Need::of("fluid", false, "", "no populations, no fill levels, no cells: none is allocated"),
     ]
 }
 
