@@ -216,3 +216,58 @@ pub struct Solid {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
 }
+
+impl Fluid {
+    /// A fluid at rest that fills the box.
+    ///
+    /// # Arguments
+    /// `density_kg_per_m3`, kg/m³; `rheology`: its law.
+    #[must_use]
+    pub fn new(density_kg_per_m3: f64, rheology: Rheology) -> Self {
+        let initial_velocity = InitialVelocity::AtRest;
+        Self { density_kg_per_m3, rheology, body_force: None, initial_velocity, initial: None }
+    }
+}
+
+impl Gravity {
+    /// Against z.
+    ///
+    /// # Arguments
+    /// `magnitude_m_per_s2`, m/s² ≥ 0.
+    #[must_use]
+    pub const fn down(magnitude_m_per_s2: f64) -> Self {
+        let direction = Some([0.0, 0.0, -1.0]);
+        Self { magnitude_m_per_s2, direction, slope_deg: None, bed_normal: None }
+    }
+
+    /// On a bed normal to z that falls towards +x.
+    ///
+    /// # Arguments
+    /// `magnitude_m_per_s2`, m/s² ≥ 0; `slope_deg`: slope of the bed, degrees.
+    #[must_use]
+    pub const fn on_slope(magnitude_m_per_s2: f64, slope_deg: f64) -> Self {
+        Self { magnitude_m_per_s2, direction: None, slope_deg: Some(slope_deg), bed_normal: Some(Axis::Z) }
+    }
+}
+
+impl Solid {
+    /// A solid at rest inside a shape.
+    #[must_use]
+    pub fn new(name: &str, shape: Shape) -> Self {
+        Self {
+            name: name.to_owned(),
+            shape,
+            invert: false,
+            velocity_m_per_s: [0.0; 3],
+            spin_rad_per_s: [0.0; 3],
+            centre_m: None,
+            material: None,
+        }
+    }
+
+    /// A solid at rest everywhere outside a shape: a pipe around a cylinder.
+    #[must_use]
+    pub fn outside(name: &str, shape: Shape) -> Self {
+        Self { invert: true, ..Self::new(name, shape) }
+    }
+}

@@ -1,5 +1,7 @@
-//! The scene file: SI units, checked, nothing numerical yet.
+//! A scene: SI units, checked, nothing numerical yet; read from a file ([`load`]) or made in Rust
+//! ([`Scene::builder`], [`dry::DryScene::builder`]).
 
+mod build;
 mod check;
 mod checker;
 mod coupled;
@@ -23,8 +25,9 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use build::SceneBuilder;
 pub use coupled::{Coupling, GrainRefillChoice, GrainWallChoice, LubricationChoice, LubricationRules};
-pub use domain::{Boundaries, Boundary, Domain, FACE_KEYS};
+pub use domain::{Boundaries, Boundary, Domain, End, FACE_KEYS};
 pub use error::{KeyRule, Located, SceneError, SceneProblem};
 pub use fluid::{
     BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialPressure, InitialVelocity, Layer,

@@ -2,6 +2,7 @@
 //!
 //! Same units, axes, boundaries and gravity as scenes with fluid; there are no cells, so there is no spacing.
 
+mod build;
 mod check;
 mod check_place;
 mod contact;
@@ -16,6 +17,7 @@ use serde::{Deserialize, Serialize};
 use super::{Boundaries, Coupling, Gravity};
 use crate::geometry::Shape;
 
+pub use build::DrySceneBuilder;
 pub(super) use check::{check, check_in_fluid};
 pub use contact::{Contact, ContactLaw, GrainMaterial, PairContact};
 pub use output::{GrainOutput, GrainStop};
