@@ -35,7 +35,7 @@ pub struct Item {
     pub part: Part,
     /// Bytes.
     pub bytes: u64,
-    /// The same over the cells of the box.
+    /// Bytes over the cells of the box.
     pub bytes_per_cell: f64,
 }
 

@@ -55,10 +55,12 @@ impl StepRule {
             Self::RelaxationTime => "from `numerics.relaxation_time` of the plastic viscosity",
             Self::TargetMach => "from `numerics.target_mach` and the reference velocity",
             Self::Speed => {
-                "chosen: reference velocity at 0.05 cells per step (least of that, plastic τ = 1, 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
+                "chosen: reference velocity at 0.05 cells per step (least of that, plastic τ = 1, \
+                 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
             }
             Self::Surge => {
-                "chosen: fastest surge at 0.1 cells per step (least of that, plastic τ = 1, 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
+                "chosen: fastest surge at 0.1 cells per step (least of that, plastic τ = 1, \
+                 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
             }
             Self::SpeedForTau => {
                 "chosen: reference velocity above 0.05, up to 0.1 cells per step, to bring the plastic τ up to 0.55"
@@ -67,10 +69,12 @@ impl StepRule {
                 "chosen: plastic τ = 1 (least of that, 0.05 cells per step, 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
             }
             Self::Compression => {
-                "chosen: compression by the wall-normal force, 3fHΔt²/(ρΔx²) = 0.02 (least of that, 0.05 cells per step, plastic τ = 1, 200 steps)"
+                "chosen: compression by the wall-normal force, 3fHΔt²/(ρΔx²) = 0.02 (least of that, 0.05 cells per step, \
+                 plastic τ = 1, 200 steps)"
             }
             Self::Duration => {
-                "chosen: 200 steps per oscillation or run (least of that, 0.05 cells per step, plastic τ = 1, 3fHΔt²/(ρΔx²) = 0.02)"
+                "chosen: 200 steps per oscillation or run (least of that, 0.05 cells per step, plastic τ = 1, \
+                 3fHΔt²/(ρΔx²) = 0.02)"
             }
         }
     }
@@ -82,7 +86,12 @@ impl StepRule {
             Self::Given => "numerics.time_step_s",
             Self::RelaxationTime => "numerics.relaxation_time",
             Self::TargetMach => "numerics.target_mach",
-            _ => "numerics",
+            Self::Speed
+            | Self::Surge
+            | Self::SpeedForTau
+            | Self::Tau
+            | Self::Compression
+            | Self::Duration => "numerics",
         }
     }
 

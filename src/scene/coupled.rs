@@ -48,7 +48,7 @@ pub enum GrainRefillChoice {
     /// Equilibrium at the velocity of the grain's surface, with the mean stress of the fluid neighbours.
     #[default]
     WithStress,
-    /// The same without stress.
+    /// Equilibrium at the velocity of the grain's surface, without stress.
     Equilibrium,
     /// Equilibrium at the mean velocity of the fluid neighbours.
     Neighbours,

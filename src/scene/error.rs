@@ -4,8 +4,8 @@ use std::fmt;
 
 pub use super::located::Located;
 use super::words::{
-    choose, did_you_mean, found_keys, list, list_static, range, rename_or_add, rename_or_define,
-    rename_or_remove, with_space,
+    choose, did_you_mean, found_keys, list, list_or, list_static, range, rename_or_add, rename_or_define,
+    rename_or_remove, right_type, with_space,
 };
 
 /// A problem found while reading or checking a scene.
@@ -71,7 +71,7 @@ pub enum SceneProblem {
     #[error(
         "found {found}\n  \
          allowed: {expected}\n  \
-         way out: {}", if .found.starts_with("string") { "write numbers without quotation marks; choices are written as in `lahar schema`" } else { "see `lahar schema` for what belongs here" })]
+         way out: {}", right_type(.found))]
     WrongType { found: String, expected: String },
     /// A quantity that must be > 0.
     #[error(
@@ -220,7 +220,10 @@ pub enum SceneProblem {
     #[error(
         "no solid is named `{name}`{}\n  \
          allowed: {}\n  \
-         way out: {}", did_you_mean(.nearest.as_ref()), if .solids.is_empty() { "names of `solids`; there is none".to_owned() } else { list(.solids) }, rename_or_add(.nearest.as_ref()))]
+         way out: {}",
+        did_you_mean(.nearest.as_ref()),
+        list_or(.solids, "names of `solids`; there is none"),
+        rename_or_add(.nearest.as_ref()))]
     UnknownSolid { name: String, nearest: Option<String>, solids: Vec<String> },
     /// Only with fluid.
     #[error(
@@ -245,7 +248,10 @@ pub enum SceneProblem {
     #[error(
         "no {kind} is named `{name}`{}\n  \
          allowed: {}\n  \
-         way out: {}", did_you_mean(.nearest.as_ref()), if .names.is_empty() { format!("names of a {kind}; there is none") } else { list(.names) }, rename_or_define(.nearest.as_ref(), .kind))]
+         way out: {}",
+        did_you_mean(.nearest.as_ref()),
+        list_or(.names, &format!("names of a {kind}; there is none")),
+        rename_or_define(.nearest.as_ref(), .kind))]
     UnknownName { kind: &'static str, name: String, nearest: Option<String>, names: Vec<String> },
     /// A list without entries.
     #[error(

@@ -49,7 +49,7 @@ pub enum InitialPressure {
     /// heavier than what was drawn, by half of 3fHΔt²/(ρΔx²).
     #[default]
     Hydrostatic,
-    /// The same, below a surface that is lowered, column by column, until the mass is what was drawn. For fluid
+    /// That of the fluid at rest below a surface that is lowered, column by column, until the mass is what was drawn. For fluid
     /// that flows out of its reservoir: the thin flow it becomes then has the right volume, whatever the time step.
     Settled,
     /// That of the air: for fluid that falls freely from the start.

@@ -98,7 +98,7 @@ pub enum RefillChoice {
     /// Equilibrium at the mean density and velocity of its neighbours.
     #[default]
     Equilibrium,
-    /// The same with the mean stress of its neighbours.
+    /// Equilibrium at the mean density and velocity of its neighbours, with their mean stress.
     WithStress,
 }
 

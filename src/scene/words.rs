@@ -39,3 +39,17 @@ pub(super) fn list_static(names: &[&str]) -> String {
 pub(super) fn found_keys(names: &[&str]) -> String {
     if names.is_empty() { "none".to_owned() } else { list_static(names) }
 }
+
+/// Names, or what is said where there are none.
+pub(super) fn list_or(names: &[String], none: &str) -> String {
+    if names.is_empty() { none.to_owned() } else { list(names) }
+}
+
+/// A way out of a wrong type; `found` is as the parser says it, with the type first.
+pub(super) fn right_type(found: &str) -> &'static str {
+    if found.starts_with("string") {
+        "write numbers without quotation marks; choices are written as in `lahar schema`"
+    } else {
+        "see `lahar schema` for what belongs here"
+    }
+}

@@ -141,7 +141,8 @@ pub enum IntegratorChoice {
     Verlet,
     /// Gear's predictor-corrector with six values and first coefficient 3/16, for forces that depend on velocity.
     Gear,
-    /// The same with first coefficient 3/20, for forces that do not.
+    /// Gear's predictor-corrector with six values and first coefficient 3/20, for forces that do not depend on
+    /// velocity.
     GearConservative,
 }
 
