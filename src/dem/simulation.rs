@@ -274,9 +274,8 @@ impl Dem {
         let near = &self.near[n];
         let m = &self.members[near.member as usize];
         let deepest = near.contacts.iter().max_by(|a, b| a.overlap.total_cmp(&b.overlap));
-        let (wall, overlap_m) = deepest.map_or((String::new(), 0.0), |c| {
-            (self.scenery.walls[c.wall as usize].name.clone(), c.overlap)
-        });
+        let (wall, overlap_m) = deepest
+            .map_or((String::new(), 0.0), |c| (self.scenery.walls[c.wall as usize].name.clone(), c.overlap));
         DemError::Overlap {
             step: self.steps,
             time_s: self.time(),

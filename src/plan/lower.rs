@@ -7,8 +7,8 @@ use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::hydrostatic;
 use crate::scene::force::computed_force;
 use crate::scene::{
-    BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Operator,
-    PrecisionChoice, RefillChoice, Rheology, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
+    BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Operator, PrecisionChoice,
+    RefillChoice, Rheology, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
 use crate::setup::{
     BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,

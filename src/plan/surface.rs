@@ -129,7 +129,8 @@ mod tests {
     use crate::plan::cells;
 
     fn pool_of(text: &str) -> Pool {
-        let scene = crate::scene::flow_from_json(text, "scene.json", std::path::Path::new(".")).unwrap_or_else(|error| panic!("{error}"));
+        let scene = crate::scene::flow_from_json(text, "scene.json", std::path::Path::new("."))
+            .unwrap_or_else(|error| panic!("{error}"));
         cells::fill(&scene).pool.unwrap_or_else(|| panic!("no surface"))
     }
 

@@ -43,12 +43,7 @@ impl Cadences {
     /// Of a scene without fluid.
     pub fn of_grains(scene: &DryScene) -> Self {
         let output = &scene.output;
-        Self {
-            series: output.series,
-            files: output.grains,
-            arrested: scene.stop.arrested,
-            ..Self::default()
-        }
+        Self { series: output.series, files: output.grains, arrested: scene.stop.arrested, ..Self::default() }
     }
 }
 

@@ -182,7 +182,9 @@ pub enum SceneProblem {
     )]
     NeedsFluid,
     /// Only with grains.
-    #[error("this measure needs grains\n  allowed: only in scenes with `grains`\n  way out: remove the probe")]
+    #[error(
+        "this measure needs grains\n  allowed: only in scenes with `grains`\n  way out: remove the probe"
+    )]
     NeedsGrains,
     /// Not together with grains in the fluid.
     #[error(

@@ -206,8 +206,7 @@ impl Experiment for Flow<'_> {
 
     fn parts(&self) -> Parts {
         let run = self.run.as_ref();
-        let grains =
-            self.grains.as_ref().and_then(|part| part.part(run, &self.plan.units, self.time_s()));
+        let grains = self.grains.as_ref().and_then(|part| part.part(run, &self.plan.units, self.time_s()));
         Parts::Fluid(Box::new(books::part(self.plan, run, &self.fields, self.mass_at_start, grains)))
     }
 }

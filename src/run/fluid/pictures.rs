@@ -141,8 +141,7 @@ impl Plots<'_> {
     /// upright one, and a mirror plane if there is one.
     fn plane(&self) -> (Direction, usize) {
         let n = self.setup.extents;
-        let upright =
-            |axis: &Direction| self.setup.free_surface.is_none() || *axis != self.frame.upright.up;
+        let upright = |axis: &Direction| self.setup.free_surface.is_none() || *axis != self.frame.upright.up;
         let axes = Direction::ALL.into_iter().rev().filter(upright);
         let normal = axes.min_by_key(|axis| n[axis.index()]).unwrap_or(Direction::Z);
         let a = normal.index();

@@ -92,10 +92,7 @@ fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
          `half_way` walls"
     } else if stopped.tau < 0.55 {
         "the relaxation time is near ½, where waves grow [K5]; a finer `domain.spacing_m` or a larger viscosity"
-    } else if stopped.tau.is_finite()
-        && stopped.tau > 3.0
-        && has_one_rate(&plan.setup.collision)
-    {
+    } else if stopped.tau.is_finite() && stopped.tau > 3.0 && has_one_rate(&plan.setup.collision) {
         "one relaxation rate at a large relaxation time; `central_moment`, or a smaller time step"
     } else if numbers.mach > 0.17 {
         "the Mach number is high; a smaller time step"

@@ -38,7 +38,8 @@ pub(super) fn report(
         }
         DemError::NotFinite { step, time_s, grain } => {
             let found = "position or velocity is not a finite number".to_owned();
-            let cause = "forces beyond the range of 64-bit numbers: check radius, density and Young's modulus";
+            let cause =
+                "forces beyond the range of 64-bit numbers: check radius, density and Young's modulus";
             stopped(*step, *time_s, name(*grain), None, found, cause)
         }
         DemError::Spin { step, time_s, grain, spin_rad_s, step_s } => {

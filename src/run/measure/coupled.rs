@@ -26,8 +26,7 @@ pub(super) fn fluid_force(fluid: &Fluid<'_>, grain: Option<usize>) -> Vec<Quanti
 /// Depth of a grain's centre below the surface around it; NaN without the grain or without fluid around it.
 pub(super) fn submergence(fluid: &Fluid<'_>, grain: Option<usize>) -> Vec<Quantity> {
     let (units, upright) = (&fluid.frame.units, fluid.frame.upright);
-    let below =
-        |grains, grain| depth(fluid.run.setup(), fluid.fields, units, upright, grains, grain);
+    let below = |grains, grain| depth(fluid.run.setup(), fluid.fields, units, upright, grains, grain);
     one("m", grain.zip(fluid.run.grains()).map_or(f64::NAN, |(grain, grains)| below(grains, grain)))
 }
 

@@ -121,8 +121,7 @@ impl Grains<'_> {
         let b = self.view.dem.bodies();
         let range = self.plan.sets.iter().find(|(name, _)| name == set).map(|(_, range)| range.clone());
         let range = range.unwrap_or_default();
-        let of: Vec<usize> =
-            (0..b.len()).filter(|&i| range.contains(&(self.view.ids[i] as usize))).collect();
+        let of: Vec<usize> = (0..b.len()).filter(|&i| range.contains(&(self.view.ids[i] as usize))).collect();
         let count = of.len().max(1) as f64;
         let mean = of.iter().fold(V3::zeros(), |sum, &i| sum + b.velocity[i]) / count;
         let speed = of.iter().map(|&i| b.velocity[i].norm()).sum::<f64>() / count;
@@ -136,11 +135,8 @@ impl Grains<'_> {
         let (b, up) = (self.view.dem.bodies(), up.unwrap_or(Axis::Z).index());
         let sized = self.view.free().map(|i| (b.radius[i], b.position[i][up])).collect();
         let means = class_means(sized, classes.unwrap_or(CLASSES) as usize);
-        let column = |(class, value)| Quantity {
-            part: Cow::Owned(format!("height_{}", class + 1)),
-            unit: "m",
-            value,
-        };
+        let column =
+            |(class, value)| Quantity { part: Cow::Owned(format!("height_{}", class + 1)), unit: "m", value };
         means.into_iter().enumerate().map(column).collect()
     }
 
