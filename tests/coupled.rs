@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use lahar::output::csv::Series;
-use lahar::output::summary::Summary;
 use lahar::plan::Plan;
 use lahar::plan::coupled::SubStepsFrom;
+use lahar::run::summary::FluidPart;
+use lahar::run::{Ended, Summary};
 use lahar::scene::{self, Scene};
 use lahar::setup::BodyForce;
 
@@ -54,6 +55,10 @@ fn run(scene: &Path, out: &Path, more: &[&str]) -> Summary {
     let output = lahar(&[&["run", &scene, "--out", &folder, "--quiet"], more].concat());
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     Summary::read(&out.join("summary.json")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn fluid(summary: &Summary) -> &FluidPart {
+    summary.fluid().expect("a part of the fluid")
 }
 
 #[test]
@@ -194,15 +199,16 @@ fn a_run_writes_fluid_and_grains() {
         // Pictures of the fluid are written from two cells on.
         assert!(out.join(file).is_file() || file == "plots/speed.svg", "{file}");
     }
-    let grains = summary.grains.as_ref().expect("books of the grains");
+    let coupling = summary.coupling().expect("books of the grains");
     // Sums of roundings of each cell's populations.
-    assert!(summary.mass_residual.abs() < 1e-12, "{}", summary.mass_residual);
-    let parts = grains.mass_over_links_kg - grains.mass_covered_kg + grains.mass_freed_kg;
+    assert!(fluid(&summary).mass_residual.abs() < 1e-12, "{}", fluid(&summary).mass_residual);
+    let parts = coupling.mass_over_links_kg - coupling.mass_covered_kg + coupling.mass_freed_kg;
     assert!(
-        (parts - grains.mass_from_grains_kg).abs()
-            < 1e-12 * summary.free_surface.as_ref().map_or(1.0, |s| s.mass_kg)
+        (parts - coupling.mass_from_grains_kg).abs()
+            < 1e-12 * fluid(&summary).free_surface.as_ref().map_or(1.0, |s| s.mass_kg)
     );
-    assert_eq!((grains.grains, grains.driven), (1, 0));
+    let grains = fluid(&summary).grains.as_ref().expect("books of the grains");
+    assert_eq!((grains.grains.number, grains.grains.driven), (1, 0));
     let series = Series::read(&out.join("series.csv")).expect("a series");
     let column = |name: &str| series.columns.iter().position(|c| c.name == name).expect("a column");
     let (z, depth) = (column("sphere_z"), column("depth"));
@@ -211,8 +217,8 @@ fn a_run_writes_fluid_and_grains() {
     assert!(series.rows.last().is_some_and(|row| row[z] < 0.0379));
     let again = folder("floating_two");
     let two = run(&path_of("floating_sphere"), &again, &["--until", "0.02", "--threads", "2"]);
-    assert_eq!(two.fingerprint, summary.fingerprint);
-    assert_eq!(two.grains.as_ref().map(|g| &g.fingerprint), Some(&grains.fingerprint));
+    assert_eq!(fluid(&two).fingerprint, fluid(&summary).fingerprint);
+    assert_eq!(fluid(&two).grains.as_ref().map(|g| &g.fingerprint), Some(&grains.fingerprint));
 }
 
 /// The parts of a force on a solid: a grain dropped on a block in a shallow pool pushes through contacts.
@@ -237,7 +243,7 @@ fn forces_of_contacts_and_fluid_are_apart() {
     let path = out.join("parts.json");
     std::fs::write(&path, scene.to_string()).expect("a written scene");
     let summary = run(&path, &out, &[]);
-    assert!(summary.stopped.is_none());
+    assert!(summary.stopped.is_none() && summary.ended == Ended::EndTime);
     let series = Series::read(&out.join("series.csv")).expect("a series");
     let column = |name: &str| series.columns.iter().position(|c| c.name == name).expect("a column");
     let last = series.rows.last().expect("rows");
@@ -276,7 +282,7 @@ fn a_guard_of_the_grains_stops_a_run_by_name() {
         assert!(message.contains(part), "`{part}` in {message}");
     }
     let summary = Summary::read(&out.join("summary.json")).expect("a summary");
-    assert!(summary.stopped.is_some() && summary.grains.is_some());
+    assert!(summary.stopped.is_some() && summary.ended == Ended::Stopped && summary.grains().is_some());
 }
 
 /// A grain thrown out through the open top is gone and booked; the one that stays keeps its number.
@@ -301,8 +307,8 @@ fn grains_that_pass_open_faces_leave() {
     let path = out.join("leave.json");
     std::fs::write(&path, scene.to_string()).expect("a written scene");
     let summary = run(&path, &out, &[]);
-    let grains = summary.grains.as_ref().expect("books of the grains");
-    assert_eq!((grains.grains, grains.left), (1, 1));
+    let grains = summary.grains().expect("books of the grains");
+    assert_eq!((grains.number, grains.left), (1, 1));
     let mass = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.005f64 * 0.005 * 0.005;
     assert!((grains.left_kg / mass - 1.0).abs() < 1e-12, "{}", grains.left_kg);
     let table = std::fs::read_to_string(out.join("grains_final_lying.csv")).expect("a table");

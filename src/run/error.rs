@@ -11,7 +11,12 @@ use crate::solver::run::StartError;
 pub enum RunError {
     /// The output folder cannot be made.
     #[error("cannot make the folder {}: {source}", .path.display())]
-    Folder { path: PathBuf, source: std::io::Error },
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
     /// The backend refused the set-up.
     #[error("cannot start: {0}")]
     Start(StartError),

@@ -65,6 +65,7 @@ fn is_there(at: &Checker, path: &str, needs: Needs, place: &Place) -> Result<(),
 
 fn measure(at: &Checker, path: &str, measure: &Measure, place: &Place) -> Result<(), SceneError> {
     let size = place.size_m;
+    let known_set = |key: &str, set: &str| known(at, &format!("{path}.{key}.set"), "set", set, &place.sets);
     match measure {
         Measure::PointVelocity { at_m } => at.point(&format!("{path}.point_velocity.at_m"), *at_m, size),
         Measure::FlowRate { normal, at_m } => {
@@ -73,17 +74,12 @@ fn measure(at: &Checker, path: &str, measure: &Measure, place: &Place) -> Result
         Measure::Front { along, threshold_m, from_m, above_m } => {
             let path = format!("{path}.front");
             at.positive(&format!("{path}.threshold_m"), *threshold_m, "m", "it is a depth", "one cell")?;
-            along_bed(at, place, &format!("{path}.along"), *along)?;
+            across(at, &format!("{path}.along"), *along, place.up.unwrap_or(Axis::Z))?;
             optional(at, &format!("{path}.from_m"), Some(*along), *from_m, size)?;
             optional(at, &format!("{path}.above_m"), place.up, *above_m, size)
         }
         Measure::SurfaceProfile { along, at_m, above_m } => {
-            let path = format!("{path}.surface_profile");
-            along_bed(at, place, &format!("{path}.along"), *along)?;
-            let up = place.up.unwrap_or(Axis::Z);
-            let third = Axis::ALL.into_iter().find(|axis| axis != along && *axis != up);
-            optional(at, &format!("{path}.at_m"), third, *at_m, size)?;
-            optional(at, &format!("{path}.above_m"), place.up, *above_m, size)
+            section(at, &format!("{path}.surface_profile"), *along, [*at_m, *above_m], place)
         }
         Measure::DepthMap { above_m } => {
             optional(at, &format!("{path}.depth_map.above_m"), place.up, *above_m, size)
@@ -94,14 +90,10 @@ fn measure(at: &Checker, path: &str, measure: &Measure, place: &Place) -> Result
         Measure::Force { solid, on } => {
             force(at, &format!("{path}.force"), solid.as_deref(), on.as_ref(), place)
         }
-        Measure::Grain { set, .. } => known(at, &format!("{path}.grain.set"), "set", set, &place.sets),
-        Measure::FluidForce { set, .. } => {
-            known(at, &format!("{path}.fluid_force.set"), "set", set, &place.sets)
-        }
-        Measure::Submergence { set, .. } => {
-            known(at, &format!("{path}.submergence.set"), "set", set, &place.sets)
-        }
-        Measure::SetSpeed { set } => known(at, &format!("{path}.set_speed.set"), "set", set, &place.sets),
+        Measure::Grain { set, .. } => known_set("grain", set),
+        Measure::FluidForce { set, .. } => known_set("fluid_force", set),
+        Measure::Submergence { set, .. } => known_set("submergence", set),
+        Measure::SetSpeed { set } => known_set("set_speed", set),
         Measure::Segregation { classes, .. } => {
             classes_in_range(at, &format!("{path}.segregation.classes"), classes.unwrap_or(3))
         }
@@ -113,9 +105,7 @@ fn measure(at: &Checker, path: &str, measure: &Measure, place: &Place) -> Result
         Measure::Flux { normal, at_m } => at.position(&format!("{path}.flux.at_m"), *normal, *at_m, size),
         Measure::Pile { along, up, share } => {
             let path = format!("{path}.pile");
-            at.ensure(up.unwrap_or(Axis::Z) != *along, &format!("{path}.along"), || {
-                SceneProblem::AcrossBed { axis: along.letter() }
-            })?;
+            across(at, &format!("{path}.along"), *along, up.unwrap_or(Axis::Z))?;
             let because = "0.5 excluded: beyond it nothing is left";
             let path = format!("{path}.share");
             share_in_range(at, &path, share.unwrap_or(0.005), because, "leave it out for 0.005")
@@ -134,10 +124,24 @@ fn measure(at: &Checker, path: &str, measure: &Measure, place: &Place) -> Result
     }
 }
 
-/// Fronts and sections run along the bed.
-fn along_bed(at: &Checker, place: &Place, path: &str, along: Axis) -> Result<(), SceneError> {
-    let up = place.up.unwrap_or(Axis::Z);
+/// Fronts, sections and piles run along the bed, across `up`.
+fn across(at: &Checker, path: &str, along: Axis, up: Axis) -> Result<(), SceneError> {
     at.ensure(along != up, path, || SceneProblem::AcrossBed { axis: along.letter() })
+}
+
+/// A section runs along the bed; `third_m` is its place on the third axis, `above_m` a height.
+fn section(
+    at: &Checker,
+    path: &str,
+    along: Axis,
+    [third_m, above_m]: [Option<f64>; 2],
+    place: &Place,
+) -> Result<(), SceneError> {
+    let up = place.up.unwrap_or(Axis::Z);
+    across(at, &format!("{path}.along"), along, up)?;
+    let third = Axis::ALL.into_iter().find(|axis| *axis != along && *axis != up);
+    optional(at, &format!("{path}.at_m"), third, third_m, place.size_m)?;
+    optional(at, &format!("{path}.above_m"), place.up, above_m, place.size_m)
 }
 
 /// A box that is not empty and reaches into that of the scene.
