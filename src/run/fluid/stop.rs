@@ -1,6 +1,5 @@
 //! What stopped a fluid, for people.
 
-use crate::collision::CollisionChoice;
 use crate::dem::DemError;
 use crate::plan::Plan;
 use crate::run::stop::{StopPlace, StopReport};
@@ -65,14 +64,6 @@ fn found(
     }
 }
 
-/// Whether an operator relaxes everything at one rate.
-fn has_one_rate(collision: &CollisionChoice) -> bool {
-    match collision {
-        CollisionChoice::Bgk | CollisionChoice::Regularised => true,
-        CollisionChoice::Trt(_) | CollisionChoice::CentralMoment(_) => false,
-    }
-}
-
 /// The likeliest cause, by what the plan already knew.
 fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
     let numbers = &plan.numbers;
@@ -92,7 +83,7 @@ fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
          `half_way` walls"
     } else if stopped.tau < 0.55 {
         "the relaxation time is near ½, where waves grow [K5]; a finer `domain.spacing_m` or a larger viscosity"
-    } else if stopped.tau.is_finite() && stopped.tau > 3.0 && has_one_rate(&plan.setup.collision) {
+    } else if stopped.tau.is_finite() && stopped.tau > 3.0 && !plan.numbers.operator.has_odd_rate() {
         "one relaxation rate at a large relaxation time; `central_moment`, or a smaller time step"
     } else if numbers.mach > 0.17 {
         "the Mach number is high; a smaller time step"
