@@ -7,13 +7,10 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 use lahar::bench::{self, BenchError};
 use lahar::output::OutputError;
-use lahar::plan::grains::GrainPlan;
-use lahar::plan::target::{self, Target};
-use lahar::plan::{Layout, Plan, PlanError};
-use lahar::run_grains::{self, Ending, GrainOptions};
-use lahar::run_scene::{self, Options, RunError};
-use lahar::scene::dry::DryScene;
-use lahar::scene::{self, AnyScene, SceneError, SceneProblem};
+use lahar::plan::target::Target;
+use lahar::plan::{Layout, PlanError, Planned};
+use lahar::run::{Finished, Options, RunError};
+use lahar::scene::{self, SceneError, SceneProblem};
 use lahar::solver::choose::{Best, only_plain};
 use lahar::solver::plain::Plain;
 use lahar::solver::run::Backend;
@@ -107,7 +104,7 @@ impl BackendName {
     }
 
     fn layout(self) -> Layout {
-        Layout::of(self.backend().name())
+        self.backend().layout()
     }
 }
 
@@ -145,7 +142,7 @@ impl Failure {
             Self::Scene(error) if matches!(*error.problem, SceneProblem::Unreadable { .. }) => IO,
             Self::Scene(_) | Self::Plan(_) | Self::NoTarget(_) => BAD_INPUT,
             Self::Run(RunError::Start(_)) => BAD_INPUT,
-            Self::Run(RunError::Stopped(_) | RunError::Grains(_)) => STOPPED,
+            Self::Run(RunError::Stopped(_)) => STOPPED,
             Self::Run(RunError::Threads(_) | RunError::Folder { .. } | RunError::Output(_)) => IO,
             Self::Bench(BenchError::Stopped { .. } | BenchError::Grains { .. }) => STOPPED,
             Self::Bench(BenchError::Threads(_)) => IO,
@@ -193,80 +190,43 @@ fn run(
     until_s: Option<f64>,
     quiet: bool,
 ) -> Result<(), Failure> {
-    let scene = match scene::read(path)? {
-        AnyScene::Flow(scene) => scene,
-        AnyScene::Dry(scene) => return run_dry(&scene, out, threads, until_s, quiet),
-    };
-    let plan = Plan::for_layout(&scene, backend.layout())?;
-    let out = out.unwrap_or_else(|| default_folder(&scene.file));
+    let planned = Planned::new(scene::load(path)?, backend.layout())?;
+    let out = out.unwrap_or_else(|| default_folder(planned.file()));
     if !quiet {
-        let n = &plan.numbers;
-        let [nx, ny, nz] = n.extents;
-        let sentence = n.time_step_rule.sentence();
-        eprintln!(
-            "{}: {nx} × {ny} × {nz} cells, {} steps of {:.4e} s ({sentence})",
-            n.title, n.steps, n.time_step_s
-        );
-        if let (BackendName::Fast, Some(what)) = (backend, only_plain(&plan.setup)) {
+        eprintln!("{}", planned.headline());
+        if let (BackendName::Fast, Planned::Flow(_, plan)) = (backend, &planned)
+            && let Some(what) = only_plain(&plan.setup)
+        {
             eprintln!("note: {what} is run by the plain backend");
         }
-        for warning in &n.warnings {
+        for warning in planned.warnings() {
             eprintln!("warning: {warning}");
         }
     }
     let options = Options { out, backend: backend.backend(), threads: count(threads), until_s, quiet };
-    let finished = run_scene::run(&scene, &plan, &options)?;
+    let finished = lahar::run::run(&planned, &options)?;
     if !quiet {
-        let why = match (finished.steady, finished.arrested) {
-            (true, _) => "steady",
-            (_, true) => "at rest",
-            _ => "end time",
-        };
-        let residual = finished.residual.map_or_else(String::new, |r| format!(", residual {r:.2e}"));
-        eprintln!(
-            "done: {} steps, {:.6} s ({why}{residual}), {:.1} s of computing, {:.2} million updates per second",
-            finished.steps, finished.time_s, finished.wall_seconds, finished.million_updates_per_second
-        );
+        eprintln!("{}", done(&planned, &finished));
         eprintln!("results in {}", options.out.display());
     }
     Ok(())
 }
 
-/// Runs grains without fluid; there is one way to compute them.
-fn run_dry(
-    scene: &DryScene,
-    out: Option<PathBuf>,
-    threads: Option<u16>,
-    until_s: Option<f64>,
-    quiet: bool,
-) -> Result<(), Failure> {
-    let plan = GrainPlan::new(scene)?;
-    let out = out.unwrap_or_else(|| default_folder(&scene.file));
-    if !quiet {
-        let n = &plan.numbers;
-        eprintln!(
-            "{}: {} grains of {} spheres, {} steps of {:.4e} s",
-            n.title, n.grains, n.spheres, n.steps, n.time_step_s
-        );
-        for warning in &n.warnings {
-            eprintln!("warning: {warning}");
-        }
-    }
-    let options = GrainOptions { out, threads: count(threads), until_s, quiet };
-    let finished = run_grains::run(scene, &plan, &options)?;
-    if !quiet {
-        let why = match finished.why {
-            Ending::EndTime => "end time",
-            Ending::AtRest => "at rest",
-            Ending::Empty => "all grains have left",
-        };
-        eprintln!(
-            "done: {} steps, {:.6} s ({why}), {:.1} s of computing, {:.2} million sphere updates per second",
-            finished.steps, finished.time_s, finished.wall_seconds, finished.million_updates_per_second
-        );
-        eprintln!("results in {}", options.out.display());
-    }
-    Ok(())
+/// How a run went, in a line.
+fn done(planned: &Planned, finished: &Finished) -> String {
+    let residual = finished.residual.map_or_else(String::new, |r| format!(", residual {r:.2e}"));
+    let updates = match planned {
+        Planned::Flow(..) => "updates",
+        Planned::Dry(..) => "sphere updates",
+    };
+    format!(
+        "done: {} steps, {:.6} s ({}{residual}), {:.1} s of computing, {:.2} million {updates} per second",
+        finished.steps,
+        finished.time_s,
+        finished.ended.words(),
+        finished.wall_seconds,
+        finished.million_updates_per_second
+    )
 }
 
 fn default_folder(file: &str) -> PathBuf {
@@ -275,37 +235,17 @@ fn default_folder(file: &str) -> PathBuf {
 }
 
 fn plan(path: &Path, json: bool, backend: BackendName, target_error: Option<Target>) -> Result<(), Failure> {
-    let scene = match scene::read(path)? {
-        AnyScene::Flow(scene) => scene,
-        AnyScene::Dry(scene) => return plan_dry(&scene, json, target_error),
-    };
-    let plan = Plan::for_layout(&scene, backend.layout())?;
-    let quote = target_error.map(|target| target::quote(&scene, &plan, target)).transpose()?;
-    if json {
-        /// The numbers, with the quote beside them where it was asked for.
-        #[derive(serde::Serialize)]
-        struct WithTarget<'a> {
-            #[serde(flatten)]
-            numbers: &'a lahar::plan::Numbers,
-            #[serde(skip_serializing_if = "Option::is_none")]
-            target: Option<target::Quote>,
+    let planned = Planned::new(scene::load(path)?, backend.layout())?;
+    let quote = match target_error {
+        Some(target) => {
+            Some(planned.quote(target)?.ok_or_else(|| Failure::NoTarget(planned.file().to_owned()))?)
         }
-        let all = WithTarget { numbers: &plan.numbers, target: quote };
-        print(&format!("{}\n", serde_json::to_string_pretty(&all)?))
-    } else {
-        print(&format!("{plan}{}", quote.map_or_else(String::new, |quote| quote.to_string())))
-    }
-}
-
-fn plan_dry(scene: &DryScene, json: bool, target_error: Option<Target>) -> Result<(), Failure> {
-    if target_error.is_some() {
-        return Err(Failure::NoTarget(scene.file.clone()));
-    }
-    let plan = GrainPlan::new(scene)?;
+        None => None,
+    };
     if json {
-        print(&format!("{}\n", serde_json::to_string_pretty(&plan.numbers)?))
+        print(&format!("{}\n", planned.json(quote.as_ref())?))
     } else {
-        print(&plan.to_string())
+        print(&format!("{planned}{}", quote.map_or_else(String::new, |quote| quote.to_string())))
     }
 }
 

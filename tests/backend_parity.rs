@@ -95,7 +95,7 @@ fn parity_of_every_scene() {
     let all = variants();
     for path in paths {
         let name = path.display().to_string();
-        let scene = scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let scene = scene::load_flow(&path).unwrap_or_else(|error| panic!("{error}"));
         let plan = Plan::with_memory(&scene, None).unwrap_or_else(|error| panic!("{error}"));
         let cells = plan.setup.cells() as u64;
         // About 3 million updates of the plain backend per scene; the big ones take the best set only.

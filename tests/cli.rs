@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use lahar::output::csv::Series;
-use lahar::output::summary::Summary;
 use lahar::plan::Plan;
+use lahar::run::{Ended, Summary};
 use lahar::scene;
 
 fn lahar(arguments: &[&str]) -> Output {
@@ -38,7 +38,7 @@ fn scenes() -> Vec<PathBuf> {
 #[test]
 fn every_scene_of_the_package_has_a_plan() {
     for path in scenes() {
-        let scene = scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let scene = scene::load_flow(&path).unwrap_or_else(|error| panic!("{error}"));
         let plan = Plan::new(&scene).unwrap_or_else(|error| panic!("{error}"));
         assert!(plan.steps > 0 && plan.numbers.mach <= 0.2, "{}", path.display());
     }
@@ -154,10 +154,11 @@ fn run_writes_all_its_files_and_the_same_bits_with_two_threads() {
         assert_eq!(series.columns[0].name, "time");
         assert!(series.rows.len() > 10, "{} rows", series.rows.len());
         let summary = Summary::read(&out.join("summary.json")).expect("a summary");
-        assert_eq!(summary.stopped, None);
+        assert_eq!((summary.ended, &summary.stopped), (Ended::EndTime, &None));
+        let fluid = summary.fluid().expect("a part of the fluid");
         // A sum over 4700 cells of values below 1 in f64.
-        assert!(summary.mass_residual.abs() < 4700.0 * f64::EPSILON, "{}", summary.mass_residual);
-        fingerprints.push(summary.fingerprint);
+        assert!(fluid.mass_residual.abs() < 4700.0 * f64::EPSILON, "{}", fluid.mass_residual);
+        fingerprints.push(fluid.fingerprint.clone());
     }
     assert_eq!(fingerprints[0], fingerprints[1]);
 }
@@ -192,7 +193,7 @@ fn guard_stops_with_3_says_where_and_keeps_earlier_files() {
     }
     assert!(!out.join("fields_000005.vti").exists());
     let summary = Summary::read(&out.join("summary.json")).expect("a summary");
-    assert!(summary.stopped.is_some());
+    assert!(summary.stopped.is_some() && summary.ended == Ended::Stopped);
 }
 
 #[test]
@@ -203,10 +204,10 @@ fn steady_run_ends_early_at_the_exact_velocity() {
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(output.stderr, b"");
     let summary = Summary::read(&out.join("summary.json")).expect("a summary");
-    assert!(summary.time_s < 59.0, "{} s of 60", summary.time_s);
+    assert!(summary.ended == Ended::Steady && summary.time_s < 59.0, "{} s of 60", summary.time_s);
     // Plug velocity 0.025 m/s; second order in 64 cells: the plug's edge lies within a cell, which
     // moves its velocity by at most (1/32)² of it.
-    let speed = summary.speed_m_per_s.greatest;
+    let speed = summary.fluid().expect("a part of the fluid").speed_m_per_s.greatest;
     assert!((speed - 0.025).abs() < 0.025 / 1024.0, "{speed}");
 }
 
@@ -241,11 +242,12 @@ fn free_surface_run_writes_surfaces_sections_and_ledger() {
         assert!(out.join(file).is_file(), "{file}");
     }
     let summary = Summary::read(&out.join("summary.json")).expect("a summary");
-    let ledger = summary.free_surface.expect("a ledger");
+    let fluid = summary.fluid().expect("a part of the fluid");
+    let ledger = fluid.free_surface.as_ref().expect("a ledger");
     // A quarter of a litre of 2000 kg/m³ from subsamples, plus the weight of compression.
     assert!((ledger.initial_mass_kg - 0.5).abs() < 0.005, "{}", ledger.initial_mass_kg);
     // 4200 cells, 20 steps: roundings of each cell and step add up at worst.
-    assert!(summary.mass_residual.abs() < 1e-12, "{}", summary.mass_residual);
+    assert!(fluid.mass_residual.abs() < 1e-12, "{}", fluid.mass_residual);
     let series = Series::read(&out.join("series.csv")).expect("a series");
     let column = |name: &str| {
         let at = series.columns.iter().position(|c| c.name == name).unwrap_or_else(|| panic!("{name}"));
@@ -288,6 +290,7 @@ fn fluid_at_rest_ends_the_run() {
     assert!(message.contains("(at rest)"), "{message}");
     let summary = Summary::read(&out.join("summary.json")).expect("a summary");
     // Not before the stretch of rest is over, and long before the end.
-    assert!((0.5..10.0).contains(&summary.time_s), "{}", summary.time_s);
-    assert!(summary.speed_m_per_s.greatest < 0.01, "{}", summary.speed_m_per_s.greatest);
+    assert!(summary.ended == Ended::AtRest && (0.5..10.0).contains(&summary.time_s), "{}", summary.time_s);
+    let speed = summary.fluid().expect("a part of the fluid").speed_m_per_s.greatest;
+    assert!(speed < 0.01, "{speed}");
 }

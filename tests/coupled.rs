@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use lahar::output::csv::Series;
-use lahar::output::summary::Summary;
 use lahar::plan::Plan;
+use lahar::plan::coupled::SubStepsFrom;
+use lahar::run::summary::FluidPart;
+use lahar::run::{Ended, Summary};
 use lahar::scene::{self, Scene};
 use lahar::setup::BodyForce;
 
@@ -31,7 +33,7 @@ fn path_of(name: &str) -> PathBuf {
 }
 
 fn load(name: &str) -> Scene {
-    scene::load(&path_of(name)).unwrap_or_else(|error| panic!("{error}"))
+    scene::load_flow(&path_of(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn plan(scene: &Scene) -> Plan {
@@ -43,7 +45,8 @@ fn changed(name: &str, change: impl Fn(&mut serde_json::Value)) -> Scene {
     let text = std::fs::read_to_string(path_of(name)).expect("a scene");
     let mut json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     change(&mut json);
-    scene::from_json(&json.to_string(), "changed.json").unwrap_or_else(|error| panic!("{error}"))
+    scene::flow_from_json(&json.to_string(), "changed.json", Path::new("."))
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Runs a scene with the command.
@@ -54,6 +57,10 @@ fn run(scene: &Path, out: &Path, more: &[&str]) -> Summary {
     Summary::read(&out.join("summary.json")).unwrap_or_else(|error| panic!("{error}"))
 }
 
+fn fluid(summary: &Summary) -> &FluidPart {
+    summary.fluid().expect("a part of the fluid")
+}
+
 #[test]
 fn every_coupled_scene_has_a_plan() {
     let entries = std::fs::read_dir(root().join("scenes/coupled")).expect("a folder of scenes");
@@ -61,7 +68,7 @@ fn every_coupled_scene_has_a_plan() {
     paths.sort();
     assert!(paths.len() >= 12);
     for path in paths {
-        let scene = scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let scene = scene::load_flow(&path).unwrap_or_else(|error| panic!("{error}"));
         let plan = plan(&scene);
         let n = plan.numbers.grains.as_ref().expect("numbers of the grains");
         let name = path.display();
@@ -117,7 +124,7 @@ fn sub_steps_and_rules_of_the_scene_reach_the_solver() {
     assert_eq!(suspension.refill, lahar::coupling::GrainRefill::Neighbours);
     assert!(suspension.lubrication.is_none());
     let n = plan.numbers.grains.as_ref().expect("numbers");
-    assert_eq!((n.sub_steps_from, n.time_step_s), ("given", plan.units.dt_s / 40.0));
+    assert_eq!((n.sub_steps_from, n.time_step_s), (SubStepsFrom::Given, plan.units.dt_s / 40.0));
 }
 
 /// What plan says about small and light grains: warnings with numbers in them.
@@ -126,12 +133,14 @@ fn plan_warns_of_small_and_of_light_grains() {
     let small = changed("settling_sphere", |json| {
         json["grains"]["sets"][0]["place"]["list"][0]["radius_m"] = 0.004.into();
     });
-    let warnings = plan(&small).numbers.warnings.join("\n");
+    let warnings =
+        plan(&small).numbers.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
     assert!(warnings.contains("radius of 1.6 cells: expect its drag to be off by 13.0 %"), "{warnings}");
     let light = changed("floating_sphere", |json| {
         json["grains"]["materials"][0]["density_kg_per_m3"] = 400.0.into();
     });
-    let warnings = plan(&light).numbers.warnings.join("\n");
+    let warnings =
+        plan(&light).numbers.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
     assert!(warnings.contains("a grain has 0.4 of the fluid's density"), "{warnings}");
 }
 
@@ -190,15 +199,16 @@ fn a_run_writes_fluid_and_grains() {
         // Pictures of the fluid are written from two cells on.
         assert!(out.join(file).is_file() || file == "plots/speed.svg", "{file}");
     }
-    let grains = summary.grains.as_ref().expect("books of the grains");
+    let coupling = summary.coupling().expect("books of the grains");
     // Sums of roundings of each cell's populations.
-    assert!(summary.mass_residual.abs() < 1e-12, "{}", summary.mass_residual);
-    let parts = grains.mass_over_links_kg - grains.mass_covered_kg + grains.mass_freed_kg;
+    assert!(fluid(&summary).mass_residual.abs() < 1e-12, "{}", fluid(&summary).mass_residual);
+    let parts = coupling.mass_over_links_kg - coupling.mass_covered_kg + coupling.mass_freed_kg;
     assert!(
-        (parts - grains.mass_from_grains_kg).abs()
-            < 1e-12 * summary.free_surface.as_ref().map_or(1.0, |s| s.mass_kg)
+        (parts - coupling.mass_from_grains_kg).abs()
+            < 1e-12 * fluid(&summary).free_surface.as_ref().map_or(1.0, |s| s.mass_kg)
     );
-    assert_eq!((grains.grains, grains.driven), (1, 0));
+    let grains = fluid(&summary).grains.as_ref().expect("books of the grains");
+    assert_eq!((grains.grains.number, grains.grains.driven), (1, 0));
     let series = Series::read(&out.join("series.csv")).expect("a series");
     let column = |name: &str| series.columns.iter().position(|c| c.name == name).expect("a column");
     let (z, depth) = (column("sphere_z"), column("depth"));
@@ -207,8 +217,8 @@ fn a_run_writes_fluid_and_grains() {
     assert!(series.rows.last().is_some_and(|row| row[z] < 0.0379));
     let again = folder("floating_two");
     let two = run(&path_of("floating_sphere"), &again, &["--until", "0.02", "--threads", "2"]);
-    assert_eq!(two.fingerprint, summary.fingerprint);
-    assert_eq!(two.grains.as_ref().map(|g| &g.fingerprint), Some(&grains.fingerprint));
+    assert_eq!(fluid(&two).fingerprint, fluid(&summary).fingerprint);
+    assert_eq!(fluid(&two).grains.as_ref().map(|g| &g.fingerprint), Some(&grains.fingerprint));
 }
 
 /// The parts of a force on a solid: a grain dropped on a block in a shallow pool pushes through contacts.
@@ -233,7 +243,7 @@ fn forces_of_contacts_and_fluid_are_apart() {
     let path = out.join("parts.json");
     std::fs::write(&path, scene.to_string()).expect("a written scene");
     let summary = run(&path, &out, &[]);
-    assert!(summary.stopped.is_none());
+    assert!(summary.stopped.is_none() && summary.ended == Ended::EndTime);
     let series = Series::read(&out.join("series.csv")).expect("a series");
     let column = |name: &str| series.columns.iter().position(|c| c.name == name).expect("a column");
     let last = series.rows.last().expect("rows");
@@ -272,7 +282,7 @@ fn a_guard_of_the_grains_stops_a_run_by_name() {
         assert!(message.contains(part), "`{part}` in {message}");
     }
     let summary = Summary::read(&out.join("summary.json")).expect("a summary");
-    assert!(summary.stopped.is_some() && summary.grains.is_some());
+    assert!(summary.stopped.is_some() && summary.ended == Ended::Stopped && summary.grains().is_some());
 }
 
 /// A grain thrown out through the open top is gone and booked; the one that stays keeps its number.
@@ -297,8 +307,8 @@ fn grains_that_pass_open_faces_leave() {
     let path = out.join("leave.json");
     std::fs::write(&path, scene.to_string()).expect("a written scene");
     let summary = run(&path, &out, &[]);
-    let grains = summary.grains.as_ref().expect("books of the grains");
-    assert_eq!((grains.grains, grains.left), (1, 1));
+    let grains = summary.grains().expect("books of the grains");
+    assert_eq!((grains.number, grains.left), (1, 1));
     let mass = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.005f64 * 0.005 * 0.005;
     assert!((grains.left_kg / mass - 1.0).abs() < 1e-12, "{}", grains.left_kg);
     let table = std::fs::read_to_string(out.join("grains_final_lying.csv")).expect("a table");

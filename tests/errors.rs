@@ -32,7 +32,7 @@ fn snapshots() -> insta::Settings {
 /// The message, by way of the library; `None` if the scene is accepted. Memory is not looked at,
 /// so that messages do not depend on the machine.
 fn refusal(path: &Path) -> Option<String> {
-    match scene::read(path) {
+    match scene::load(path) {
         Ok(AnyScene::Flow(scene)) => Plan::with_memory(&scene, None).err().map(|error| error.to_string()),
         Ok(AnyScene::Dry(scene)) => GrainPlan::with_memory(&scene, None).err().map(|error| error.to_string()),
         Err(error) => Some(error.to_string()),
@@ -81,7 +81,7 @@ fn command_exits_with_2_and_the_same_message() {
 #[test]
 fn refuses_what_does_not_fit_into_memory() {
     let text = include_str!("../scenes/verify/taylor_green_3d.json");
-    let scene = scene::from_json(text, "taylor_green_3d.json").expect("a good scene");
+    let scene = scene::flow_from_json(text, "taylor_green_3d.json", Path::new(".")).expect("a good scene");
     // 32³ cells of 496 bytes are 16.3 MB.
     assert!(Plan::with_memory(&scene, Some(16_400_000)).is_ok());
     let error = Plan::with_memory(&scene, Some(16_000_000)).expect_err("too little memory");
@@ -95,7 +95,7 @@ fn refuses_what_does_not_fit_into_memory() {
 fn refuses_one_byte_too_little_for_walls_and_surfaces() {
     for name in ["verify/square_duct_newtonian", "verify/pipe_bingham", "show/slump_cone"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.json"));
-        let scene = scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let scene = scene::load_flow(&path).unwrap_or_else(|error| panic!("{error}"));
         for layout in [Layout::EveryCell, Layout::Blocks] {
             let plan = |bytes| Plan::with_layout(&scene, layout, Some(bytes));
             let total = predict(&plan(u64::MAX).expect("a plan").setup, layout).total;
@@ -119,7 +119,7 @@ fn commands_refuse_what_does_not_fit() {
     std::fs::create_dir_all(&folder).expect("a folder");
     let path = folder.join("too_large.json");
     let text = include_str!("../scenes/verify/taylor_green_3d.json");
-    let scene = scene::from_json(text, "taylor_green_3d.json").expect("a good scene");
+    let scene = scene::flow_from_json(text, "taylor_green_3d.json", Path::new(".")).expect("a good scene");
     let mut json: serde_json::Value = serde_json::from_str(text).expect("JSON");
     json["domain"]["spacing_m"] = (scene.domain.size_m[0] / 1500.0).into();
     json.as_object_mut().expect("an object").remove("$schema");

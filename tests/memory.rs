@@ -82,7 +82,7 @@ fn predicted_bytes_are_those_allocated() {
             let mut run = backend.start(&setup).unwrap_or_else(|error| panic!("{name}: {error}"));
             // Some arrays appear in the first step.
             run.advance(2).unwrap_or_else(|stopped| panic!("{name}: {stopped:?}"));
-            let predicted = predict(&setup, Layout::of(backend.name())).run() as f64;
+            let predicted = predict(&setup, backend.layout()).run() as f64;
             let ratio = run.allocated_bytes() as f64 / predicted;
             // Below a surface the blocks that the fluid touches count too; it has not moved there yet.
             let least = if setup.free_surface.is_some() { 0.5 } else { 1.0 - MARGIN };

@@ -1,10 +1,14 @@
 //! What is written can be read back: VTI through vtkio, summary through its own reader.
 
+use lahar::dem::Energies;
 use lahar::fingerprint::Fingerprint;
 use lahar::output::OutputError;
 use lahar::output::isosurface::Mesh;
-use lahar::output::summary::{Extrema, Summary};
 use lahar::output::vti::Image;
+use lahar::run::summary::{
+    CoupledPart, CouplingPart, DryPart, Extrema, FluidPart, GrainFingerprint, GrainPart, Parts,
+};
+use lahar::run::{Ended, Summary};
 use vtkio::model::{Attribute, DataSet, IOBuffer, Piece};
 
 const EXTENTS: [usize; 3] = [3, 4, 2];
@@ -140,18 +144,41 @@ fn exact_vtp_read_back_by_vtkio() {
     assert_eq!(offsets, &[3, 6]);
 }
 
-#[test]
-fn exact_summary_round_trip() {
-    let summary = Summary {
+/// What every summary says.
+fn summary(ended: Ended, parts: Parts) -> Summary {
+    let dry = matches!(parts, Parts::Dry(_));
+    Summary {
         scene: "channel".to_owned(),
-        scene_hash: lahar::output::summary::hash(b"{}"),
+        scene_hash: lahar::run::summary::hash(b"{}"),
         version: "0.1.0".to_owned(),
-        backend: "plain".to_owned(),
+        backend: (!dry).then(|| "plain".to_owned()),
         threads: 2,
         steps: 1000,
         time_s: 0.1 + 0.2,
+        ended,
         wall_seconds: 1.5,
         million_updates_per_second: f64::INFINITY,
+        parts,
+        stopped: (ended == Ended::Stopped).then(|| "a guard".to_owned()),
+    }
+}
+
+fn grain_part() -> GrainPart {
+    GrainPart {
+        number: 3,
+        driven: 1,
+        left: 2,
+        left_kg: 0.1 + 0.2,
+        mass_kg: 1.0,
+        momentum_n_s: [0.1, -0.0, 1e-300],
+        max_speed_m_per_s: f64::NAN,
+        contacts: 4,
+        energies_j: Energies { kinetic: 1.0 / 3.0, ..Energies::default() },
+    }
+}
+
+fn fluid_part(grains: Option<CoupledPart>) -> FluidPart {
+    FluidPart {
         mass_residual: -1.0e-17,
         density: Extrema::of([1.0, 1.0 + f64::EPSILON].into_iter()),
         speed_m_per_s: Extrema { least: 0.0, greatest: 0.3 },
@@ -163,10 +190,59 @@ fn exact_summary_round_trip() {
             max_speed: 0.1,
         },
         free_surface: None,
-        grains: None,
-        stopped: None,
+        grains,
+    }
+}
+
+fn coupled_part() -> CoupledPart {
+    let coupling = CouplingPart {
+        sub_steps: 7,
+        covered_cells: 10,
+        cells_covered: 20,
+        cells_freed: 5,
+        mass_from_grains_kg: 1e-9,
+        mass_over_links_kg: 2e-9,
+        mass_covered_kg: -1e-9,
+        mass_freed_kg: 0.0,
+        from_grains_n_s: [0.1; 3],
+        over_links_n_s: [0.2; 3],
+        covered_n_s: [0.3; 3],
+        freed_n_s: [0.4; 3],
+        gradient_pa_per_m: [0.0, 0.0, 9810.0],
     };
-    let path = folder("summary.json");
-    summary.write(&path).unwrap();
-    assert_eq!(Summary::read(&path).unwrap(), summary);
+    let fingerprint = "fedcba9876543210".to_owned();
+    CoupledPart { grains: grain_part(), coupling, unexplained_j: 1e-12, fingerprint }
+}
+
+/// A fluid, grains in a fluid, grains alone: the file says the same when it is read back, and where.
+#[test]
+fn exact_summary_round_trip() {
+    let dry = DryPart {
+        grains: grain_part(),
+        energy_residual: 1e-9,
+        lists: 12,
+        fingerprint: GrainFingerprint { step: 1000, hash: "aa".to_owned(), kinetic_energy_j: 0.25 },
+    };
+    for (ended, parts, number) in [
+        (Ended::Steady, Parts::Fluid(Box::new(fluid_part(None))), None),
+        (Ended::Stopped, Parts::Fluid(Box::new(fluid_part(Some(coupled_part())))), Some("/grains/grains")),
+        (Ended::Empty, Parts::Dry(Box::new(dry)), Some("/grains")),
+    ] {
+        let summary = summary(ended, parts);
+        let path = folder("summary.json");
+        summary.write(&path).unwrap();
+        // NaN is unlike itself.
+        assert_eq!(format!("{:?}", Summary::read(&path).unwrap()), format!("{summary:?}"));
+        let json: serde_json::Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
+        assert_eq!(json["ended"].as_str().map(|word| word.replace('_', " ")).as_deref(), Some(word(ended)));
+        let found = number.map(|at| json.pointer(at).and_then(serde_json::Value::as_u64));
+        assert_eq!(found, number.map(|_| Some(3)), "{json}");
+    }
+}
+
+fn word(ended: Ended) -> &'static str {
+    match ended {
+        Ended::Empty => "empty",
+        other => other.words(),
+    }
 }

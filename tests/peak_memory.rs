@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use lahar::plan::Plan;
-use lahar::run_scene::{self, Options};
+use lahar::plan::{Plan, Planned};
+use lahar::run::{self, Options};
 use lahar::scene;
 use lahar::solver::choose::Best;
 
@@ -23,17 +23,18 @@ fn peak_is_what_the_plan_says() {
     // In the order of their size: a peak does not go down. Spacings give 90³ cells, most of them empty, and 80³.
     for (name, spacing_m) in [("show/slump_cone", 0.002), ("verify/taylor_green_3d", 0.00125)] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.json"));
-        let mut scene = scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        let mut scene = scene::load_flow(&path).unwrap_or_else(|error| panic!("{error}"));
         scene.domain.spacing_m = spacing_m;
         let plan = Plan::new(&scene).unwrap_or_else(|error| panic!("{error}"));
         let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("peak_memory");
         let _ = std::fs::remove_dir_all(&out);
-        let until_s = Some(2.0 * plan.numbers.time_step_s);
+        let (until_s, bytes) = (Some(2.0 * plan.numbers.time_step_s), plan.numbers.bytes);
+        let planned = Planned::Flow(Box::new(scene), Box::new(plan));
         let options = Options { out: out.clone(), backend: &Best, threads: 2, until_s, quiet: true };
-        run_scene::run(&scene, &plan, &options).unwrap_or_else(|error| panic!("{error}"));
+        run::run(&planned, &options).unwrap_or_else(|error| panic!("{error}"));
         let _ = std::fs::remove_dir_all(&out);
         let Some(peak) = peak() else { return };
-        let ratio = peak as f64 / plan.numbers.bytes as f64;
+        let ratio = peak as f64 / bytes as f64;
         println!("{name}: peak of {peak} bytes, {ratio:.3} of the plan");
         // Below one half the plan would turn away what fits.
         assert!((0.5..=MARGIN).contains(&ratio), "{name}: {ratio}");

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use lahar::output::csv::Series;
-use lahar::output::summary::Summary;
-use lahar::plan::Plan;
-use lahar::run_scene::{self, Options};
+use lahar::plan::{Plan, Planned};
+use lahar::run::summary::SurfaceSummary;
+use lahar::run::{self, Options, Summary};
 use lahar::scene;
 use lahar::solver::plain::Plain;
 
@@ -13,11 +13,19 @@ use lahar::solver::plain::Plain;
 fn run(name: &str, text: &str) -> PathBuf {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&out);
-    let scene = scene::from_json(text, &format!("{name}.json")).unwrap_or_else(|error| panic!("{error}"));
+    let scene = scene::flow_from_json(text, &format!("{name}.json"), Path::new("."))
+        .unwrap_or_else(|error| panic!("{error}"));
     let plan = Plan::with_memory(&scene, None).unwrap_or_else(|error| panic!("{error}"));
     let options = Options { out: out.clone(), backend: &Plain, threads: 1, until_s: None, quiet: true };
-    run_scene::run(&scene, &plan, &options).unwrap_or_else(|error| panic!("{error}"));
+    let planned = Planned::Flow(Box::new(scene), Box::new(plan));
+    run::run(&planned, &options).unwrap_or_else(|error| panic!("{error}"));
     out
+}
+
+/// The ledger in the summary of a folder.
+fn ledger(out: &Path) -> SurfaceSummary {
+    let summary = Summary::read(&out.join("summary.json")).expect("a summary");
+    summary.fluid().and_then(|fluid| fluid.free_surface.clone()).expect("a ledger")
 }
 
 struct Table(Series);
@@ -101,8 +109,7 @@ fn probes_of_a_dam_break_agree_with_each_other() {
     for (surface, depth) in section.column("surface").iter().zip(section.column("depth")) {
         assert_eq!(*surface, depth, "the bed is at 0");
     }
-    let summary = Summary::read(&out.join("summary.json")).expect("a summary");
-    let ledger = summary.free_surface.expect("a ledger");
+    let ledger = ledger(&out);
     assert_eq!(ledger.outflow_kg, 0.0);
     assert!((ledger.mass_kg - series.last("mass")).abs() < 1e-15);
     // 1e3 cells and steps, a rounding each at worst.
@@ -115,7 +122,7 @@ fn load_on_a_wall_is_what_the_ledger_says_solids_took() {
         r#"{ "name": "wall", "shape": { "box": { "min_m": [0.15, -1, 0], "max_m": [0.18, 1, 0.05] } } }"#;
     let out = run("dam_wall", &dam_break(wall, 0.25));
     let series = Table::read(out.join("series.csv"));
-    let ledger = Summary::read(&out.join("summary.json")).expect("a summary").free_surface.expect("a ledger");
+    let ledger = ledger(&out);
     for (axis, name) in ["x", "y", "z"].iter().enumerate() {
         let impulse = series.last(&format!("load_impulse_{name}"));
         let taken = -ledger.from_solids_n_s[axis];
@@ -137,7 +144,7 @@ fn outflow_is_booked() {
     let end = 0.6;
     let short = dam_break("", end).replace("[0.4, 0.01, 0.15]", "[0.14, 0.01, 0.15]");
     let out = run("dam_outflow", &short);
-    let ledger = Summary::read(&out.join("summary.json")).expect("a summary").free_surface.expect("a ledger");
+    let ledger = ledger(&out);
     assert!(ledger.outflow_kg > 0.01 * ledger.initial_mass_kg, "{}", ledger.outflow_kg);
     let sum = ledger.mass_kg + ledger.outflow_kg - ledger.from_walls_kg;
     // As the mass residual of the dam break.

@@ -10,7 +10,7 @@ use super::machine::Memory;
 use super::statistics::Spread;
 use super::yielded::{Yielded, yielded};
 use super::{Options, Report, backends};
-use crate::plan::memory::{Layout, human, predict};
+use crate::plan::memory::{human, predict};
 use crate::solver::run::{Backend, Run, StartError};
 
 /// Share of the available memory that is used.
@@ -142,7 +142,7 @@ fn start<'a>(
             report.leave_out(case.name, format!("plain is given at most {limit} cells here"));
             continue;
         }
-        let predicted = predict(&setup, Layout::of(backend.name())).run();
+        let predicted = predict(&setup, backend.layout()).run();
         for threads in options.thread_counts() {
             if !group.single_thread && threads < options.threads {
                 continue;

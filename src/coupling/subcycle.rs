@@ -19,7 +19,7 @@ impl Immersed {
         self.alone = alone;
         if let Err(error) = moved {
             let grain = match &error {
-                crate::dem::DemError::Overlap { grains, .. } => grains.0,
+                crate::dem::DemError::Overlap { pair, .. } => pair.grain(),
                 crate::dem::DemError::NotFinite { grain, .. } | crate::dem::DemError::Spin { grain, .. } => {
                     *grain
                 }

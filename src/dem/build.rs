@@ -276,7 +276,7 @@ impl Dem {
     /// No overlap beyond what the set-up allows, between bodies and with walls.
     pub(super) fn check_start(&self, setup: &Setup) -> Result<(), DemError> {
         for (p, &(a, b)) in self.list.pairs.iter().enumerate() {
-            let (_, overlap_m, _) = self.pair_words(p);
+            let (_, overlap_m, _) = self.overlap_of(p);
             let (a, b) = (&self.members[a as usize], &self.members[b as usize]);
             let allowed_m = setup.start_overlap * a.radius.min(b.radius);
             if overlap_m > allowed_m && a.inverse_mass + b.inverse_mass > 0.0 {

@@ -1,5 +1,7 @@
 //! What can be wrong with a set-up, and what stops a run.
 
+use std::fmt;
+
 use thiserror::Error;
 
 /// Errors of the discrete element method.
@@ -75,9 +77,8 @@ pub enum DemError {
     Overlap {
         step: u64,
         time_s: f64,
-        pair: String,
-        /// The grains of the pair; one if the other side is a wall.
-        grains: (usize, Option<usize>),
+        /// The two bodies, a grain first.
+        pair: Touching,
         overlap_m: f64,
         share: f64,
         limit: f64,
@@ -89,6 +90,39 @@ pub enum DemError {
          {step_s:.3e} s (the free rotation did not converge)"
     )]
     Spin { step: u64, time_s: f64, grain: usize, spin_rad_s: f64, step_s: f64 },
+}
+
+/// Two bodies that touch.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Touching {
+    /// Two grains, by their numbers.
+    Grains(usize, usize),
+    /// A grain and a wall.
+    Wall {
+        /// Number of the grain.
+        grain: usize,
+        /// Name of the wall.
+        wall: String,
+    },
+}
+
+impl Touching {
+    /// Number of the grain, the first one of two.
+    #[must_use]
+    pub fn grain(&self) -> usize {
+        match *self {
+            Self::Grains(grain, _) | Self::Wall { grain, .. } => grain,
+        }
+    }
+}
+
+impl fmt::Display for Touching {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Grains(first, second) => write!(f, "grains {first} and {second}"),
+            Self::Wall { grain, wall } => write!(f, "grain {grain} and wall `{wall}`"),
+        }
+    }
 }
 
 /// An input/output failure, comparable so that errors can be compared in tests.

@@ -46,7 +46,7 @@ pub use checkpoint::Checkpoint;
 pub use clump::{Clump, InertiaRule, Sphere};
 pub use contact::{ContactEquations, StandardContact, restitution};
 pub use energy::{Energies, Ledger};
-pub use error::DemError;
+pub use error::{DemError, Touching};
 pub use integrate::Integrator;
 pub use material::{Material, Materials, NormalLaw, PairProperties};
 pub use retain::keep_marked;

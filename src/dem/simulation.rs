@@ -9,7 +9,7 @@ use super::material::PairTable;
 use super::neighbours::PairList;
 use super::setup::{Period, Shape};
 use super::walls::pass::{self as wall_pass, NearWall, Scenery};
-use super::{DemError, V3};
+use super::{DemError, Touching, V3};
 use rayon::prelude::*;
 
 /// Members per task at least.
@@ -233,22 +233,22 @@ impl Dem {
         self.gear = Some(((0..b.len()).map(place).collect(), (0..b.len()).map(turn).collect()));
     }
 
-    pub(super) fn pair_words(&self, p: usize) -> (String, f64, f64) {
+    /// The bodies of a pair, their overlap, m, and its share of the smaller radius.
+    pub(super) fn overlap_of(&self, p: usize) -> (Touching, f64, f64) {
         let (ia, ib) = self.list.pairs[p];
         let (a, b) = (&self.members[ia as usize], &self.members[ib as usize]);
         let shift = self.list.shift.get(p).copied().unwrap_or_default();
         let overlap = a.radius + b.radius - (a.position - b.position - shift).norm();
-        (format!("grains {} and {}", a.body, b.body), overlap, overlap / a.radius.min(b.radius))
+        let pair = Touching::Grains(a.body as usize, b.body as usize);
+        (pair, overlap, overlap / a.radius.min(b.radius))
     }
 
     fn too_deep(&self, p: usize) -> DemError {
-        let (pair, overlap_m, share) = self.pair_words(p);
-        let (ia, ib) = self.list.pairs[p];
+        let (pair, overlap_m, share) = self.overlap_of(p);
         DemError::Overlap {
             step: self.steps,
             time_s: self.time(),
             pair,
-            grains: (self.members[ia as usize].body as usize, Some(self.members[ib as usize].body as usize)),
             overlap_m,
             share,
             limit: self.overlap_limit,
@@ -259,13 +259,12 @@ impl Dem {
         let near = &self.near[n];
         let m = &self.members[near.member as usize];
         let deepest = near.contacts.iter().max_by(|a, b| a.overlap.total_cmp(&b.overlap));
-        let (name, overlap_m) =
-            deepest.map_or(("", 0.0), |c| (self.scenery.walls[c.wall as usize].name.as_str(), c.overlap));
+        let (wall, overlap_m) = deepest
+            .map_or((String::new(), 0.0), |c| (self.scenery.walls[c.wall as usize].name.clone(), c.overlap));
         DemError::Overlap {
             step: self.steps,
             time_s: self.time(),
-            pair: format!("grain {} and wall `{name}`", m.body),
-            grains: (m.body as usize, None),
+            pair: Touching::Wall { grain: m.body as usize, wall },
             overlap_m,
             share: overlap_m / m.radius,
             limit: self.overlap_limit,

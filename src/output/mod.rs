@@ -13,7 +13,6 @@ pub mod picture;
 pub mod plot;
 pub mod progress;
 pub mod pvd;
-pub mod summary;
 pub mod svg;
 pub mod table;
 mod ticks;

@@ -1,8 +1,9 @@
 //! Which cells are solid, which fluid they hold, and how wide the gaps between walls are.
 
+use super::facts::Facts;
 use super::surface::{self, Pool};
 use crate::geometry::{Axis, Shape};
-use crate::scene::{Boundary, Domain, Scene};
+use crate::scene::{Boundary, Domain};
 
 /// The box in cells. Per-cell arrays are empty when nothing would be in them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,7 +33,8 @@ pub fn extents(domain: &Domain) -> [usize; 3] {
 
 /// Fills the box.
 #[must_use]
-pub fn fill(scene: &Scene) -> Cells {
+pub fn fill(facts: &Facts) -> Cells {
+    let scene = facts.scene;
     let extents = extents(&scene.domain);
     let shapes: Vec<(&Shape, bool)> = scene.solids.iter().map(|s| (&s.shape, s.invert)).collect();
     let solids = paint(extents, scene.domain.spacing_m, &shapes);
@@ -40,9 +42,9 @@ pub fn fill(scene: &Scene) -> Cells {
     let fluid_of_cell = paint(extents, scene.domain.spacing_m, &layers);
     let total = extents.iter().map(|&n| n as u64).product::<u64>();
     let open_cells = total - solids.iter().filter(|&&s| s != 0).count() as u64;
-    let gap = gap(extents, &scene.domain.boundaries.by_axis(), &solids);
-    let fill = surface::fill(scene, extents, &solids);
-    let pool = fill.as_ref().map(|fill| surface::pool(scene, extents, &solids, fill));
+    let gap = gap(extents, &facts.faces, &solids);
+    let fill = surface::fill(facts, extents, &solids);
+    let pool = fill.as_ref().map(|fill| surface::pool(facts, extents, &solids, fill));
     let filled = fill.as_ref().map(|fill| fill.iter().filter(|&&fill| fill > 0.0).count() as u64);
     let fluid_cells = filled.unwrap_or(open_cells);
     Cells { extents, solids, fluid_of_cell, fluid_cells, fill: fill.unwrap_or_default(), pool, gap }

@@ -2,11 +2,11 @@
 
 use super::cells::{Cells, holds_a_cell};
 use super::error::PlanProblem;
-use super::memory::{Layout, least_bytes_per_cell, predict};
+use super::memory::{least_bytes_per_cell, predict};
 use super::numbers::Numbers;
-use crate::rheology::Law;
 use crate::scene::Scene;
 use crate::setup::{BodyForce, Setup, WallRule};
+use crate::solver::layout::Layout;
 
 /// Largest Mach number; 0.5 is 0.29 cells per step, where the O(Ma²) errors are a quarter.
 const MACH_MAX: f64 = 0.5;
@@ -100,13 +100,8 @@ pub(super) fn finite(setup: &Setup) -> Result<(), PlanProblem> {
         None => Ok(()),
     };
     for law in &setup.fluids {
-        match *law {
-            Law::Newtonian { mu } => finite("the viscosity", &[mu])?,
-            Law::Bingham { sigma0, mu } => finite("the law", &[sigma0, mu])?,
-            Law::HerschelBulkley { sigma0, k, n } => finite("the law", &[sigma0, k, n])?,
-            Law::PowerLaw { k, n } => finite("the law", &[k, n])?,
-            Law::Papanastasiou { sigma0, k, n, m } => finite("the law", &[sigma0, k, n, m])?,
-        }
+        let what = if law.constant_tau().is_some() { "the viscosity" } else { "the law" };
+        finite(what, &law.parameters())?;
     }
     match setup.force {
         BodyForce::Constant(f) => finite("the body force", &f),
@@ -143,7 +138,7 @@ pub(super) fn numbers(numbers: &Numbers, setup: &Setup) -> Result<(), PlanProble
         return Err(PlanProblem::TauTooSmall { tau, dt, limit: TAU_MIN });
     }
     let walls = numbers.gap_cells.is_finite() && setup.wall_rule == WallRule::HalfWay;
-    let one_rate = matches!(numbers.operator, "bgk" | "regularised");
+    let one_rate = !numbers.operator.has_odd_rate();
     let (limit, because) = if one_rate && walls {
         (TAU_MAX_ONE_RATE, "half-way walls slip by (16(τ−½)² − 3)/(3N²) of the mean flow [B1]")
     } else {

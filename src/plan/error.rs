@@ -1,50 +1,70 @@
 //! What can be wrong with a scene once it is put into numbers.
 
-use super::memory::human;
-use crate::scene::Located;
+use super::text::human;
+use crate::scene::{Located, Operator};
 
 /// A problem found while planning a scene.
 pub type PlanError = Located<PlanProblem>;
 
 /// What is wrong. Every message says what was found, what is allowed and why, and a way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the message above each variant says what its fields are")]
 pub enum PlanProblem {
     /// No fluid cell left.
     #[error(
-        "solids cover all {cells} cells\n  allowed: at least one fluid cell; a cell is solid if its centre is inside\n  way out: smaller solids, a finer `domain.spacing_m`, or check `invert`"
+        "solids cover all {cells} cells\n  \
+         allowed: at least one fluid cell; a cell is solid if its centre is inside\n  \
+         way out: smaller solids, a finer `domain.spacing_m`, or check `invert`"
     )]
     SolidEverywhere { cells: u64 },
     /// A shape between the cell centres.
     #[error(
-        "`{name}` holds no cell centre\n  allowed: shapes with at least one; a cell belongs to a shape if its centre is inside\n  way out: a shape larger than the spacing of {spacing} m, or a finer spacing"
+        "`{name}` holds no cell centre\n  \
+         allowed: shapes with at least one; a cell belongs to a shape if its centre is inside\n  \
+         way out: a shape larger than the spacing of {spacing} m, or a finer spacing"
     )]
     NoCellCovered { name: String, spacing: f64 },
     /// A part of the initial fluid that is nowhere.
     #[error(
-        "`{name}` fills no cell\n  allowed: fluid in at least one cell at time 0\n  way out: a place inside the box and a size of about the spacing of {spacing} m or more"
+        "`{name}` fills no cell\n  \
+         allowed: fluid in at least one cell at time 0\n  \
+         way out: a place inside the box and a size of about the spacing of {spacing} m or more"
     )]
     NoCellFilled { name: String, spacing: f64 },
     /// A part of the initial fluid that lies in solids.
     #[error(
-        "`{name}` fills no cell: all of it lies inside {solids}\n  allowed: parts that reach out of the solids; what is inside them does not count\n  way out: move it, remove it, or take a recess out of the solid with `difference`"
+        "`{name}` fills no cell: all of it lies inside {solids}\n  \
+         allowed: parts that reach out of the solids; what is inside them does not count\n  \
+         way out: move it, remove it, or take a recess out of the solid with `difference`"
     )]
     FluidInsideSolids { name: String, solids: String },
     /// No air to move into.
     #[error(
-        "{fluid} of {cells} cells hold fluid, {solids} are solid, and no empty cell can be reached: there is no free surface\n  allowed: fluid that has room to move into\n  way out: less fluid, open up the solids, or leave out `fluid.initial` for a box full of fluid"
+        "{fluid} of {cells} cells hold fluid, {solids} are solid, and no empty cell can be reached: there is no \
+         free surface\n  \
+         allowed: fluid that has room to move into\n  \
+         way out: less fluid, open up the solids, or leave out `fluid.initial` for a box full of fluid"
     )]
     NoRoom { fluid: u64, solids: u64, cells: u64 },
     /// Fluid at an open face.
-    #[error("fluid touches the open face {face} at time 0 in {cells} cells, the first at ({:.6}, {:.6}, {:.6}) m\n  allowed: open faces that fluid reaches later; here it would drain from the first step on\n  way out: make {face} a wall, or leave at least one cell of air before it", .at_m[0], .at_m[1], .at_m[2])]
+    #[error(
+        "fluid touches the open face {face} at time 0 in {cells} cells, the first at ({:.6}, {:.6}, {:.6}) m\n  \
+         allowed: open faces that fluid reaches later; here it would drain from the first step on\n  \
+         way out: make {face} a wall, or leave at least one cell of air before it", .at_m[0], .at_m[1], .at_m[2])]
     OpenUnderFluid { face: &'static str, cells: u64, at_m: [f64; 3] },
     /// A recess that is none.
     #[error(
-        "takes nothing away: no cell centre is inside both\n  allowed: parts that remove at least one cell\n  way out: move it to where `from` is, make it larger than the spacing of {spacing} m, or remove it"
+        "takes nothing away: no cell centre is inside both\n  \
+         allowed: parts that remove at least one cell\n  \
+         way out: move it to where `from` is, make it larger than the spacing of {spacing} m, or remove it"
     )]
     NothingRemoved { spacing: f64 },
     /// More memory than there is.
     #[error(
-        "{cells} cells need {}\n  allowed: at most the {} that are available\n  way out: `domain.spacing_m` of {spacing_needed:.3e} m or more instead of {spacing} m, or one cell along periodic axes on which nothing changes", human(*needed), human(*available)
+        "{cells} cells need {}\n  \
+         allowed: at most the {} that are available\n  \
+         way out: `domain.spacing_m` of {spacing_needed:.3e} m or more instead of {spacing} m, or one cell along \
+         periodic axes on which nothing changes", human(*needed), human(*available)
     )]
     OutOfMemory {
         /// Cells of the box.
@@ -59,145 +79,212 @@ pub enum PlanProblem {
         spacing_needed: f64,
     },
     /// Too fast.
-    #[error("found Mach number {mach:.3}: {speed:.4e} m/s at a time step of {dt:.3e} s\n  allowed: at most {limit}; the equilibrium is of second order in Ma [L3]\n  way out: a time step of at most {dt_max:.3e} s{}", or_leave(*.given))]
+    #[error(
+        "found Mach number {mach:.3}: {speed:.4e} m/s at a time step of {dt:.3e} s\n  \
+         allowed: at most {limit}; the equilibrium is of second order in Ma [L3]\n  \
+         way out: a time step of at most {dt_max:.3e} s{}", or_leave(*.given))]
     MachTooHigh { mach: f64, speed: f64, dt: f64, limit: f64, dt_max: f64, given: bool },
     /// τ too near ½.
     #[error(
-        "found a relaxation time of {tau:.6} at a time step of {dt:.3e} s\n  allowed: at least {limit}, the least for which stability is tabulated [K5] [L6]\n  way out: a finer `domain.spacing_m` (τ − ½ grows as Δt/Δx²), or a larger viscosity"
+        "found a relaxation time of {tau:.6} at a time step of {dt:.3e} s\n  \
+         allowed: at least {limit}, the least for which stability is tabulated [K5] [L6]\n  \
+         way out: a finer `domain.spacing_m` (τ − ½ grows as Δt/Δx²), or a larger viscosity"
     )]
     TauTooSmall { tau: f64, dt: f64, limit: f64 },
     /// τ too large.
     #[error(
-        "found a relaxation time of {tau:.4} at a time step of {dt:.3e} s\n  allowed: at most {limit} with {operator}: {because}\n  way out: a time step of at most {dt_max:.3e} s"
+        "found a relaxation time of {tau:.4} at a time step of {dt:.3e} s\n  \
+         allowed: at most {limit} with {operator}: {because}\n  \
+         way out: a time step of at most {dt_max:.3e} s"
     )]
-    TauTooLarge { tau: f64, dt: f64, limit: f64, operator: &'static str, because: &'static str, dt_max: f64 },
+    TauTooLarge { tau: f64, dt: f64, limit: f64, operator: Operator, because: &'static str, dt_max: f64 },
     /// Beyond the stability table.
     #[error(
-        "found a speed of {speed:.4} cells per step with {operator} at a relaxation time of {tau:.4}\n  allowed: at most {limit:.4}, the von Neumann limit [K5]\n  way out: {}",
-        calmer(operator)
+        "found a speed of {speed:.4} cells per step with {operator} at a relaxation time of {tau:.4}\n  \
+         allowed: at most {limit:.4}, the von Neumann limit [K5]\n  \
+         way out: {}",
+        calmer(*operator)
     )]
-    Unstable { speed: f64, limit: f64, tau: f64, operator: &'static str },
+    Unstable { speed: f64, limit: f64, tau: f64, operator: Operator },
     /// Nothing says how fast the flow is.
     #[error(
-        "no velocity scale: nothing drives the fluid, and its viscosity depends on the shear rate\n  allowed: flows whose speed can be estimated, or a time step [L6]\n  way out: give `numerics.reference_velocity_m_per_s` or `numerics.time_step_s`"
+        "no velocity scale: nothing drives the fluid, and its viscosity depends on the shear rate\n  \
+         allowed: flows whose speed can be estimated, or a time step [L6]\n  \
+         way out: give `numerics.reference_velocity_m_per_s` or `numerics.time_step_s`"
     )]
     NoVelocityScale,
     /// Steps that cannot be counted.
     #[error(
-        "{steps:.3e} steps of {dt:.3e} s to reach {end:.3e} s\n  allowed: at most 9e15, the integers exact in 64-bit floating point\n  way out: an earlier `stop.end_time_s`"
+        "{steps:.3e} steps of {dt:.3e} s to reach {end:.3e} s\n  \
+         allowed: at most 9e15, the integers exact in 64-bit floating point\n  \
+         way out: an earlier `stop.end_time_s`"
     )]
     TooManySteps { steps: f64, dt: f64, end: f64 },
     /// End before the first step.
     #[error(
-        "the end time of {end} s is less than half a time step of {dt} s\n  allowed: at least one step\n  way out: a smaller `numerics.time_step_s`"
+        "the end time of {end} s is less than half a time step of {dt} s\n  \
+         allowed: at least one step\n  \
+         way out: a smaller `numerics.time_step_s`"
     )]
     NoStep { end: f64, dt: f64 },
     /// Nothing says how fast grains become.
     #[error(
-        "no speed: no grain and no wall moves, and there is no gravity\n  allowed: scenes in which something moves\n  way out: give a velocity, gravity, or `design_speed_m_per_s`"
+        "no speed: no grain and no wall moves, and there is no gravity\n  \
+         allowed: scenes in which something moves\n  \
+         way out: give a velocity, gravity, or `design_speed_m_per_s`"
     )]
     NoDesignSpeed,
     /// All grains are driven.
     #[error(
-        "all grains are driven: nothing can be pushed\n  allowed: at least one grain that is free\n  way out: remove `driven` from a set"
+        "all grains are driven: nothing can be pushed\n  \
+         allowed: at least one grain that is free\n  \
+         way out: remove `driven` from a set"
     )]
     NothingMoves,
     /// End before the first step of the grains.
     #[error(
-        "the end time of {end:.3e} s is less than half a time step of {dt:.3e} s\n  allowed: at least one step\n  way out: a later end, or a smaller `grains.numerics.time_step_s`"
+        "the end time of {end:.3e} s is less than half a time step of {dt:.3e} s\n  \
+         allowed: at least one step\n  \
+         way out: a later end, or a smaller `grains.numerics.time_step_s`"
     )]
     NoGrainStep { end: f64, dt: f64 },
     /// Grains that overlap at time 0.
     #[error(
-        "{first} and {second} overlap by {overlap_m:.3e} m at time 0\n  allowed: at most {allowed_m:.3e} m; deeper overlaps would explode\n  way out: move one of them, or raise `grains.numerics.start_overlap`"
+        "{first} and {second} overlap by {overlap_m:.3e} m at time 0\n  \
+         allowed: at most {allowed_m:.3e} m; deeper overlaps would explode\n  \
+         way out: move one of them, or raise `grains.numerics.start_overlap`"
     )]
     GrainsOverlap { first: String, second: String, overlap_m: f64, allowed_m: f64 },
     /// A time step that does not resolve a contact.
     #[error(
-        "found {found_s:.3e} s\n  allowed: at most {limit_s:.3e} s; the contact between {pair} lasts {contact_s:.3e} s at the design speed of {speed_m_s:.4} m/s and needs {steps} steps at least [D3]\n  way out: leave it out, softer material, or a lower `design_speed_m_per_s`"
+        "found {found_s:.3e} s\n  \
+         allowed: at most {limit_s:.3e} s; the contact between {pair} lasts {contact_s:.3e} s at the design speed \
+         of {speed_m_s:.4} m/s and needs {steps} steps at least [D3]\n  \
+         way out: leave it out, softer material, or a lower `design_speed_m_per_s`"
     )]
     GrainTimeStep { found_s: f64, pair: String, contact_s: f64, speed_m_s: f64, steps: f64, limit_s: f64 },
     /// A periodic axis too short.
     #[error(
-        "axis {axis}: found {length_m} m\n  allowed: more than {needed_m:.4e} m along a periodic axis; on less a pair would touch twice\n  way out: a longer box, smaller grains, or `free_slip` faces"
+        "axis {axis}: found {length_m} m\n  \
+         allowed: more than {needed_m:.4e} m along a periodic axis; on less a pair would touch twice\n  \
+         way out: a longer box, smaller grains, or `free_slip` faces"
     )]
     GrainPeriod { axis: char, length_m: f64, needed_m: f64 },
     /// No room.
     #[error(
-        "{placed} of {wanted} grains found a place without overlap\n  allowed: as many as random addition finds room for, about a third of the volume\n  way out: fewer or smaller grains, a larger region, or a lattice"
+        "{placed} of {wanted} grains found a place without overlap\n  \
+         allowed: as many as random addition finds room for, about a third of the volume\n  \
+         way out: fewer or smaller grains, a larger region, or a lattice"
     )]
     PackingFull { placed: usize, wanted: usize },
     /// A lattice without a place.
     #[error(
-        "no grain of radius {radius_m} m lies wholly inside the region\n  allowed: regions with room for at least one\n  way out: a larger region, or smaller grains"
+        "no grain of radius {radius_m} m lies wholly inside the region\n  \
+         allowed: regions with room for at least one\n  \
+         way out: a larger region, or smaller grains"
     )]
     NoGrainFits { radius_m: f64 },
     /// A file beside the scene.
     #[error(
-        "`{file}` cannot be read as {kind}: {what}\n  allowed: {kind} in the folder of the scene\n  way out: check its name and content"
+        "`{file}` cannot be read as {kind}: {what}\n  \
+         allowed: {kind} in the folder of the scene\n  \
+         way out: check its name and content"
     )]
     BadFile { file: String, kind: &'static str, what: String },
     /// A grain that is not in the box.
     #[error(
-        "axis {axis}: the centre of {grain} is at {at_m} m\n  allowed: 0 m to {size_m} m, the box{}\n  way out: move it into the box", if *.open { "; what passes an open face is taken out" } else { "" }
+        "axis {axis}: the centre of {grain} is at {at_m} m\n  \
+         allowed: 0 m to {size_m} m, the box{}\n  \
+         way out: move it into the box", if *.open { "; what passes an open face is taken out" } else { "" }
     )]
     GrainOutside { grain: String, axis: char, at_m: f64, size_m: f64, open: bool },
     /// More than can be numbered.
     #[error(
-        "found {spheres:.3e} spheres\n  allowed: at most {max:.0e}, which can be numbered\n  way out: fewer or larger grains"
+        "found {spheres:.3e} spheres\n  \
+         allowed: at most {max:.0e}, which can be numbered\n  \
+         way out: fewer or larger grains"
     )]
     TooManyGrains { spheres: f64, max: f64 },
     /// More than fits.
     #[error(
-        "{grains} grains need {}\n  allowed: at most the {} that are free\n  way out: fewer or larger grains", human(*.bytes), human(*.available)
+        "{grains} grains need {}\n  \
+         allowed: at most the {} that are free\n  \
+         way out: fewer or larger grains", human(*.bytes), human(*.available)
     )]
     GrainMemory { grains: u64, bytes: u64, available: u64 },
     /// A quantity that left the range of 64-bit numbers.
     #[error(
-        "{quantity} cannot be had: it is 0, infinite or not a number\n  allowed: magnitudes for which it is a number above 0\n  way out: check the magnitudes of radii, densities, Young's moduli, speeds and gravity"
+        "{quantity} cannot be had: it is 0, infinite or not a number\n  \
+         allowed: magnitudes for which it is a number above 0\n  \
+         way out: check the magnitudes of radii, densities, Young's moduli, speeds and gravity"
     )]
     GrainScale { quantity: &'static str },
     /// A wall that cannot be made.
     #[error(
-        "the wall cannot be made: {what}\n  allowed: corners at different places, edges that do not cross, finite numbers\n  way out: remove corners that are given twice"
+        "the wall cannot be made: {what}\n  \
+         allowed: corners at different places, edges that do not cross, finite numbers\n  \
+         way out: remove corners that are given twice"
     )]
     BadWall { what: String },
     /// Anything else that the discrete element method refuses.
-    #[error("{what}\n  allowed: what the message asks for\n  way out: change the value it names")]
+    #[error(
+        "{what}\n  \
+         allowed: what the message asks for\n  \
+         way out: change the value it names"
+    )]
     Grains { what: String },
     /// A solid whose surface moves away from its cells.
     #[error(
-        "the surface of this solid moves away from where its cells are\n  allowed: with grains, surfaces that slide along themselves: a plane in its plane, an endless cylinder about or along its axis\n  way out: set velocity and spin to 0, or make it a `driven` grain"
+        "the surface of this solid moves away from where its cells are\n  \
+         allowed: with grains, surfaces that slide along themselves: a plane in its plane, an endless cylinder \
+         about or along its axis\n  \
+         way out: set velocity and spin to 0, or make it a `driven` grain"
     )]
     SolidLeavesCells,
     /// Grains the cells cannot show.
     #[error(
-        "a grain of set `{set}` has a radius of {radius:.4e} m, {cells:.3} cells\n  allowed: at least {least} cell; below it the surface is a handful of links, and the drag is off by half and more\n  way out: `domain.spacing_m` of at most {spacing:.4e} m ({good:.4e} m for errors of about 1 %), larger grains, or put these sizes into the rheology"
+        "a grain of set `{set}` has a radius of {radius:.4e} m, {cells:.3} cells\n  \
+         allowed: at least {least} cell; below it the surface is a handful of links, and the drag is off by half \
+         and more\n  \
+         way out: `domain.spacing_m` of at most {spacing:.4e} m ({good:.4e} m for errors of about 1 %), larger \
+         grains, or put these sizes into the rheology"
     )]
     GrainTooSmall { set: String, radius: f64, cells: f64, least: f64, spacing: f64, good: f64 },
     /// Too light for explicit coupling.
     #[error(
-        "found {density} kg/m³, {ratio:.3} of the fluid's density\n  allowed: at least {least} of it: a grain accelerates half its volume of fluid with it, and forces that are known only one step later make lighter ones ring ever louder\n  way out: at least {least_density:.4} kg/m³, or a `driven` grain"
+        "found {density} kg/m³, {ratio:.3} of the fluid's density\n  \
+         allowed: at least {least} of it: a grain accelerates half its volume of fluid with it, and forces that are \
+         known only one step later make lighter ones ring ever louder\n  \
+         way out: at least {least_density:.4} kg/m³, or a `driven` grain"
     )]
     GrainTooLight { density: f64, ratio: f64, least: f64, least_density: f64 },
     /// Faster than the guard of the run.
     #[error(
-        "grains reach {speed:.4e} m/s, {lattice:.3} cells per step at a time step of {dt:.3e} s\n  allowed: at most {limit} cells per step, where the run is stopped\n  way out: a time step of at most {dt_max:.3e} s, or leave it to `plan`"
+        "grains reach {speed:.4e} m/s, {lattice:.3} cells per step at a time step of {dt:.3e} s\n  \
+         allowed: at most {limit} cells per step, where the run is stopped\n  \
+         way out: a time step of at most {dt_max:.3e} s, or leave it to `plan`"
     )]
     GrainsTooFast { speed: f64, lattice: f64, limit: f64, dt: f64, dt_max: f64 },
     /// Lubrication needs shorter steps.
     #[error(
-        "with {steps} the friction of lubrication, 6πμR²/h, is limited by the time step below a gap of {gap:.3} cells\n  allowed: gaps of at most {allowed} cells, so that grains do not touch through the fluid\n  way out: at least {needed}, leave it out, or `\"lubrication\": \"off\"`"
+        "with {steps} the friction of lubrication, 6πμR²/h, is limited by the time step below a gap of {gap:.3} \
+         cells\n  \
+         allowed: gaps of at most {allowed} cells, so that grains do not touch through the fluid\n  \
+         way out: at least {needed}, leave it out, or `\"lubrication\": \"off\"`"
     )]
     LubricationStep { steps: u32, needed: f64, gap: f64, allowed: f64 },
     /// More sub-steps than make sense.
     #[error(
-        "contacts and lubrication need {needed:.3e} steps of the grains in one step of the fluid\n  allowed: at most {most:.0e}\n  way out: softer material, a smaller `numerics.time_step_s`, or heavier grains"
+        "contacts and lubrication need {needed:.3e} steps of the grains in one step of the fluid\n  \
+         allowed: at most {most:.0e}\n  \
+         way out: softer material, a smaller `numerics.time_step_s`, or heavier grains"
     )]
     TooManySubSteps { needed: f64, most: f64 },
     /// A scale that left the range of 64-bit numbers.
     #[error(
-        "{quantity} is {found} in lattice units\n  allowed: finite numbers\n  way out: check the magnitudes of spacing, density and viscosity"
+        "{quantity} is {found} in lattice units\n  \
+         allowed: finite numbers\n  \
+         way out: check the magnitudes of spacing, density and viscosity"
     )]
     NotFinite { quantity: &'static str, found: f64 },
 }
@@ -207,8 +294,8 @@ fn or_leave(given: bool) -> &'static str {
 }
 
 /// Ways out of an unstable choice.
-fn calmer(operator: &str) -> &'static str {
-    if operator == "central_moment" {
+fn calmer(operator: Operator) -> &'static str {
+    if operator == Operator::CentralMoment {
         "a finer `domain.spacing_m`, a larger viscosity, or a smaller time step if that brings the speed below the limit"
     } else {
         "a smaller time step, a larger viscosity, or `central_moment`"

@@ -4,10 +4,9 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::cells::Cells;
-use super::scale::closed_axes;
+use super::facts::Facts;
 use crate::free_surface::{Kind, hydrostatic};
-use crate::scene::force::computed_force;
-use crate::scene::{BodyForce, InitialPressure, InitialVelocity, Scene};
+use crate::scene::{BodyForce, InitialPressure, InitialVelocity};
 use crate::setup::{FlowPoint, InitialFlow};
 use crate::units::Units;
 
@@ -20,7 +19,8 @@ struct Wave {
 
 /// The initial flow of a scene, or `None` for rest at uniform pressure.
 #[must_use]
-pub fn initial_flow(scene: &Scene, units: &Units, cells: &Cells, force: &[f64; 3]) -> Option<InitialFlow> {
+pub fn initial_flow(facts: &Facts, units: &Units, cells: &Cells, force: &[f64; 3]) -> Option<InitialFlow> {
+    let scene = facts.scene;
     let extents = cells.extents;
     let flow = scene.fluid.initial_velocity;
     if let Some(initial) = &scene.fluid.initial {
@@ -30,7 +30,7 @@ pub fn initial_flow(scene: &Scene, units: &Units, cells: &Cells, force: &[f64; 3
         let force = if weightless { &[0.0; 3] } else { force };
         return own.then(|| flow_below_surface(flow, units, cells, force));
     }
-    let push = pressure_gradient(scene, units);
+    let push = pressure_gradient(facts, units);
     if flow == InitialVelocity::AtRest && push == [0.0; 3] {
         return None;
     }
@@ -65,8 +65,8 @@ fn flow_below_surface(flow: InitialVelocity, units: &Units, cells: &Cells, force
 }
 
 /// Pressure gradient that holds the force at time 0 along walled axes: ∇p = f.
-fn pressure_gradient(scene: &Scene, units: &Units) -> [f64; 3] {
-    let force = match computed_force(scene) {
+fn pressure_gradient(facts: &Facts, units: &Units) -> [f64; 3] {
+    let force = match facts.forces.computed {
         BodyForce::Constant { force_n_per_m3 } => force_n_per_m3,
         BodyForce::Stepped { before_n_per_m3, after_n_per_m3, at_s } => {
             if at_s > 0.0 {
@@ -78,8 +78,7 @@ fn pressure_gradient(scene: &Scene, units: &Units) -> [f64; 3] {
         // The mean; the oscillation starts the compression waves that it would drive anyway.
         BodyForce::Oscillating { mean_n_per_m3, .. } => mean_n_per_m3,
     };
-    let closed = closed_axes(scene);
-    std::array::from_fn(|a| if closed[a] { units.force_to_lattice(force[a]) } else { 0.0 })
+    std::array::from_fn(|a| if facts.closed[a] { units.force_to_lattice(force[a]) } else { 0.0 })
 }
 
 fn wave(flow: &InitialVelocity, units: &Units, extents: [usize; 3], cell: [usize; 3]) -> Wave {

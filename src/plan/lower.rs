@@ -1,15 +1,13 @@
 //! Scene and units to the lattice set-up.
 
 use super::cells::Cells;
+use super::facts::Facts;
 use super::initial::initial_flow;
-use super::law::to_lattice;
 use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::hydrostatic;
-use crate::scene::force::computed_force;
 use crate::scene::{
-    BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Measure, Operator,
-    PrecisionChoice, Probe, RefillChoice, Rheology, Scene, SurfaceGravity, SurfaceRules, WallChoice,
-    YieldChoice,
+    BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Operator, PrecisionChoice,
+    RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
 use crate::setup::{
     BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
@@ -19,27 +17,27 @@ use crate::units::Units;
 
 /// The set-up of a scene.
 #[must_use]
-pub fn lower(scene: &Scene, units: &Units, mut cells: Cells) -> Setup {
-    let mut setup = Setup::periodic(cells.extents, to_lattice(&scene.fluid.rheology, units));
-    setup.faces = scene.domain.boundaries.by_axis().map(|faces| faces.map(|face| lower_face(face, units)));
-    setup.fluids.extend(scene.layers.iter().map(|layer| to_lattice(&layer.rheology, units)));
-    setup.force = force(&computed_force(scene), units);
+pub fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
+    let scene = facts.scene;
+    let mut setup = Setup::periodic(cells.extents, facts.laws[0].to_lattice(units));
+    setup.faces = facts.faces.map(|faces| faces.map(|face| lower_face(face, units)));
+    setup.fluids.extend(facts.laws[1..].iter().map(|law| law.to_lattice(units)));
+    setup.force = force(&facts.forces.computed, units);
     let settled = scene.fluid.initial.as_ref().is_some_and(|i| i.pressure == InitialPressure::Settled);
     if settled {
         let is_solid = |cell: usize| cells.solids.get(cell).is_some_and(|&s| s != 0);
         cells.fill = hydrostatic::settle(cells.extents, &cells.fill, is_solid, &setup.force.at(0));
     }
-    setup.initial = initial_flow(scene, units, &cells, &setup.force.at(0));
+    setup.initial = initial_flow(facts, units, &cells, &setup.force.at(0));
     if cells.pool.is_some() {
         setup.free_surface = Some(free_surface(scene.numerics.free_surface.unwrap_or_default(), cells.fill));
     }
-    let is_force = |probe: &Probe| matches!(probe.measure, Measure::Force { .. });
-    setup.loads = scene.output.probes.iter().any(is_force);
+    setup.loads = scene.output.all_probes().any(|(probe, _)| probe.measure.loaded_solid().is_some());
     setup.solids = cells.solids;
     setup.fluid_of_cell = cells.fluid_of_cell;
     setup.solid_motion = solid_motion(scene, units);
     setup.yielding = yield_treatment(&scene.numerics.yield_treatment, units);
-    setup.collision = collision(scene);
+    setup.collision = collision(facts);
     setup.wall_rule = match scene.numerics.wall_rule {
         WallChoice::HalfWay => WallRule::HalfWay,
         WallChoice::ViscosityIndependent => WallRule::ViscosityIndependent,
@@ -100,9 +98,10 @@ fn solid_motion(scene: &Scene, units: &Units) -> Vec<SolidMotion> {
 
 /// The collision operator with defaults filled in.
 #[must_use]
-pub fn collision(scene: &Scene) -> CollisionChoice {
+pub fn collision(facts: &Facts) -> CollisionChoice {
+    let scene = facts.scene;
     let choice = &scene.numerics.collision;
-    let operator = operator(scene);
+    let operator = operator(facts);
     let among_grains = scene.grains.is_some() && operator == Operator::CentralMoment;
     let default = if among_grains { OddRate::AMONG_GRAINS } else { OddRate::STANDARD };
     let odd = OddRate {
@@ -110,12 +109,7 @@ pub fn collision(scene: &Scene) -> CollisionChoice {
         floor: choice.floor.unwrap_or(default.floor),
         lowered_below: choice.lowered_below.unwrap_or(default.lowered_below),
     };
-    match operator {
-        Operator::Bgk => CollisionChoice::Bgk,
-        Operator::Trt => CollisionChoice::Trt(odd),
-        Operator::CentralMoment => CollisionChoice::CentralMoment(odd),
-        Operator::Regularised => CollisionChoice::Regularised,
-    }
+    operator.with(odd)
 }
 
 /// The operator that is asked for; by default the one that suits the fluid.
@@ -123,12 +117,10 @@ pub fn collision(scene: &Scene) -> CollisionChoice {
 /// In a plug only central moments keep the stress of an unyielded cell honest \[K3\]. Around grains in a Newtonian fluid
 /// two relaxation times do better: the drag does not depend on the viscosity, and fast grains stay stable.
 #[must_use]
-pub fn operator(scene: &Scene) -> Operator {
-    let mut laws =
-        std::iter::once(&scene.fluid.rheology).chain(scene.layers.iter().map(|layer| &layer.rheology));
-    let newtonian = laws.all(|law| matches!(law, Rheology::Newtonian { .. }));
-    let default = if scene.grains.is_some() && newtonian { Operator::Trt } else { Operator::CentralMoment };
-    scene.numerics.collision.operator.unwrap_or(default)
+pub fn operator(facts: &Facts) -> Operator {
+    let two_rates = facts.scene.grains.is_some() && facts.is_newtonian();
+    let default = if two_rates { Operator::Trt } else { Operator::CentralMoment };
+    facts.scene.numerics.collision.operator.unwrap_or(default)
 }
 
 /// The yield treatment with its limits as relaxation times.

@@ -2,35 +2,49 @@
 
 mod cells;
 mod checks;
+mod cost;
 pub mod coupled;
 mod error;
+mod facts;
+mod figures;
 pub mod grains;
 mod initial;
-pub mod law;
 mod lower;
 pub mod memory;
 mod nearest_flow;
 mod needs;
 mod numbers;
+mod planned;
 mod print;
 mod print_target;
 mod scale;
-pub mod surface;
+mod surface;
 mod surface_checks;
 pub mod target;
+mod text;
 mod time_step;
+mod warning;
+mod warnings;
 pub mod work;
 
 use std::fmt;
 
 pub use error::{PlanError, PlanProblem};
-pub use memory::{Layout, available as available_memory};
+pub use memory::available as available_memory;
 pub use needs::Need;
 pub use numbers::Numbers;
+pub use planned::Planned;
 pub use time_step::StepRule;
+pub use warning::Warning;
 
+use self::cost::SPHERE_UPDATES_PER_SECOND;
+use self::coupled::{Coupled, Findings};
+use self::facts::Facts;
+use self::figures::Basis;
+use self::numbers::Given;
 use crate::scene::Scene;
 use crate::setup::Setup;
+pub use crate::solver::layout::Layout;
 use crate::units::Units;
 
 /// Everything a run needs, worked out before it starts.
@@ -74,7 +88,7 @@ impl Plan {
         Self::with_layout(scene, Layout::default(), available)
     }
 
-    /// Both: for a layout, as if `available` bytes were free.
+    /// Plans a scene for a backend of this layout, as if `available` bytes of memory were free.
     ///
     /// # Errors
     /// As [`Plan::new`].
@@ -83,40 +97,45 @@ impl Plan {
         checks::least_memory(scene, layout, available).map_err(|problem| at("domain", problem))?;
         checks::shapes(scene).map_err(|(path, problem)| at(&path, problem))?;
         surface_checks::recesses(scene).map_err(|(path, problem)| at(&path, problem))?;
-        let cells = cells::fill(scene);
+        let facts = Facts::of(scene);
+        let cells = cells::fill(&facts);
         checks::some_fluid(&cells).map_err(|problem| at("solids", problem))?;
-        surface_checks::surface(scene, &cells).map_err(|(path, problem)| at(&path, problem))?;
-        let mut scales = scale::scales(scene, &cells);
-        let started = coupled::start(scene, &cells, &mut scales, available)?;
-        let (dt, rule) = time_step::choose(scene, &scales, cells.pool.as_ref())
+        surface_checks::surface(&facts, &cells).map_err(|(path, problem)| at(&path, problem))?;
+        let mut scales = scale::scales(&facts, &cells);
+        let started = coupled::start(&facts, &cells, &mut scales, available)?;
+        let (dt, rule) = time_step::choose(&facts, &scales, cells.pool.as_ref())
             .map_err(|problem| at("numerics", problem))?;
         let units = time_step::units(scene, dt);
         let steps = checks::steps(scene, dt).map_err(|problem| at("stop.end_time_s", problem))?;
-        let gap = cells.gap;
-        let fluid_cells = cells.fluid_cells;
-        let pool = cells.pool;
-        let mut setup = lower::lower(scene, &units, cells);
+        let (gap, fluid_cells, pool) = (cells.gap, cells.fluid_cells, cells.pool);
+        let mut setup = lower::lower(&facts, &units, cells);
         let finished = started
-            .map(|started| started.finish(scene, &units, &scales, &mut setup, rule.path()))
+            .map(|started| started.finish(&facts, &units, &scales, &mut setup, rule.path()))
             .transpose()?;
         checks::memory(scene, &setup, layout, available).map_err(|problem| at("domain", problem))?;
         checks::finite(&setup).map_err(|problem| at("fluid", problem))?;
-        let numbers = numbers::numbers(&numbers::Given {
-            scene,
-            units: &units,
-            setup: &setup,
-            scales: &scales,
-            rule,
-            steps,
-            gap,
-            fluid_cells,
-            pool,
-            layout,
-            coupled: finished.as_ref(),
-        });
+        let basis = Basis { facts: &facts, units: &units, setup: &setup, scales: &scales, steps, gap, pool };
+        let numbers = shown(&Given { basis, rule, fluid_cells, layout }, finished.as_ref());
         checks::numbers(&numbers, &setup).map_err(|problem| at(rule.path(), problem))?;
         Ok(Self { units, setup, steps, grains: finished.map(|(coupled, _)| coupled), numbers })
     }
+}
+
+/// Everything `lahar plan` shows.
+fn shown(given: &Given, coupled: Option<&(Coupled, Findings)>) -> Numbers {
+    let Basis { facts, units, setup, scales, pool, .. } = given.basis;
+    let mut numbers = numbers::numbers(given);
+    numbers.warnings = warnings::warnings(&numbers, &given.basis);
+    if let Some((coupled, findings)) = coupled {
+        let open = (setup.cells() as u64 - numbers.solid_cells) as f64 * units.dx_m * units.dx_m * units.dx_m;
+        let mixture_m3 = pool.map_or(open, |pool| pool.volume);
+        let grains = coupled::Given { facts, units, setup, coupled, findings, scales, mixture_m3 };
+        let (grains, warnings) = coupled::numbers(&grains);
+        numbers.estimated_seconds += grains.sphere_updates / SPHERE_UPDATES_PER_SECOND;
+        numbers.warnings.extend(warnings);
+        numbers.grains = Some(grains);
+    }
+    numbers
 }
 
 impl fmt::Debug for Plan {

@@ -1,15 +1,16 @@
 //! Which flow of the table of work and precision a scene is nearest to.
 
 use super::cells::Cells;
+use super::facts::Facts;
 use super::lower::operator;
 use super::numbers::Numbers;
-use super::scale::closed_axes;
 use crate::plan::work::{Case, Operator, Scheme, Walls};
-use crate::scene::force::{extreme_forces, total_force};
-use crate::scene::{
-    BodyForce, Boundary, InitialVelocity, Operator as SceneOperator, Rheology, Scene, YieldChoice,
-};
+use crate::rheology::Law;
+use crate::scene::{BodyForce, Boundary, InitialVelocity, Operator as SceneOperator, YieldChoice};
 use crate::setup::{Setup, WallRule};
+
+/// Flow index of the flows of the table.
+const FLOW_INDEX: f64 = 0.33;
 
 /// Kind of law, as far as the table tells them apart.
 #[derive(Clone, Copy, PartialEq)]
@@ -19,42 +20,43 @@ enum Fluid {
     HerschelBulkley,
 }
 
-fn fluid(law: &Rheology, differences: &mut Vec<String>) -> Result<Fluid, String> {
+fn fluid(law: &Law) -> Result<Fluid, String> {
+    match law {
+        Law::Newtonian { .. } => Ok(Fluid::Newtonian),
+        Law::Bingham { .. } => Ok(Fluid::Bingham),
+        Law::HerschelBulkley { .. } => Ok(Fluid::HerschelBulkley),
+        // The table is what was measured; it has these three, and says so of any other.
+        other => Err(format!("no flow of the table has a {}", other.name())),
+    }
+}
+
+/// How the flow index differs from that of a flow of the table.
+fn index_difference(law: &Law, case: Case) -> Option<String> {
+    let of_power = matches!(case, Case::ChannelHerschelBulkley | Case::FilmHerschelBulkley);
     match *law {
-        Rheology::Newtonian { .. } => Ok(Fluid::Newtonian),
-        Rheology::Bingham { .. } => Ok(Fluid::Bingham),
-        Rheology::HerschelBulkley { flow_index, .. } => {
-            if (flow_index - 0.33).abs() > 0.1 {
-                differences.push(format!("its flow index is 0.33, not {flow_index}"));
-            }
-            Ok(Fluid::HerschelBulkley)
+        Law::HerschelBulkley { n, .. } if of_power && (n - FLOW_INDEX).abs() > 0.1 => {
+            Some(format!("its flow index is {FLOW_INDEX}, not {n}"))
         }
-        Rheology::PowerLaw { .. } => Err("no flow of the table has a power law".to_owned()),
-        Rheology::Papanastasiou { .. } => Err("no flow of the table has a Papanastasiou law".to_owned()),
+        _ => None,
     }
 }
 
 /// The nearest flow, the cells that count, and how the scene differs; or why there is none.
 pub(super) fn case_of(
-    scene: &Scene,
+    facts: &Facts,
     numbers: &Numbers,
     cells: &Cells,
 ) -> Result<(Case, f64, Vec<String>), String> {
+    let scene = facts.scene;
     let mut differences = Vec::new();
-    let fluid = fluid(&scene.fluid.rheology, &mut differences)?;
+    let fluid = fluid(&facts.laws[0])?;
     if scene.grains.is_some() {
         return Err("the scene has grains, and no flow of the table".to_owned());
     }
     if !scene.layers.is_empty() {
         return Err("the scene has several fluids, the flows of the table one".to_owned());
     }
-    if scene
-        .domain
-        .boundaries
-        .by_axis()
-        .into_iter()
-        .flatten()
-        .any(|b| matches!(b, Boundary::MovingWall { .. }))
+    if facts.faces.iter().flatten().any(|b| matches!(b, Boundary::MovingWall { .. }))
         || scene.solids.iter().any(|s| s.velocity_m_per_s != [0.0; 3] || s.spin_rad_per_s != [0.0; 3])
     {
         return Err("walls drive the scene, and no flow of the table".to_owned());
@@ -63,27 +65,27 @@ pub(super) fn case_of(
         return Err("the force changes with time, and in no flow of the table".to_owned());
     }
     let (case, along) = if let Some(depth) = numbers.depth_cells {
-        (surface_case(scene, cells, fluid, &mut differences)?, depth)
+        (surface_case(facts, cells, fluid, &mut differences)?, depth)
     } else if numbers.gap_cells.is_finite() {
-        (channel_case(scene, fluid, &mut differences)?, numbers.gap_cells)
+        (channel_case(facts, fluid, &mut differences)?, numbers.gap_cells)
     } else {
-        (Case::Vortex, wave(scene, numbers, fluid, &mut differences)?)
+        (Case::Vortex, wave(facts, numbers, fluid, &mut differences)?)
     };
-    Ok((case, along, differences))
+    let index = index_difference(&facts.laws[0], case);
+    Ok((case, along, index.into_iter().chain(differences).collect()))
 }
 
 fn surface_case(
-    scene: &Scene,
+    facts: &Facts,
     cells: &Cells,
     fluid: Fluid,
     differences: &mut Vec<String>,
 ) -> Result<Case, String> {
+    let (scene, closed, force) = (facts.scene, facts.closed, facts.forces.extremes[0]);
     let Some(pool) = &cells.pool else { return Err("the scene has no fluid".to_owned()) };
     if pool.fall > 0.0 {
         return Err("the fluid falls through air, and in no flow of the table".to_owned());
     }
-    let force = extreme_forces(&total_force(scene))[0];
-    let closed = closed_axes(scene);
     let along = |a: usize| a != pool.up.index() && force[a] != 0.0;
     if pool.level && scene.solids.is_empty() && !(0..3).any(|a| along(a) && closed[a]) {
         if !(0..3).any(along) {
@@ -105,27 +107,24 @@ fn surface_case(
         Fluid::Newtonian => Case::DamBreak,
         Fluid::Bingham => Case::Slump,
         Fluid::HerschelBulkley => {
-            differences.retain(|d| !d.starts_with("its flow index"));
             differences.push("its fluid is a Bingham fluid".to_owned());
             Case::Slump
         }
     })
 }
 
-fn channel_case(scene: &Scene, fluid: Fluid, differences: &mut Vec<String>) -> Result<Case, String> {
-    if !scene.solids.is_empty() {
+fn channel_case(facts: &Facts, fluid: Fluid, differences: &mut Vec<String>) -> Result<Case, String> {
+    let (closed, force) = (facts.closed, facts.forces.extremes[0]);
+    if !facts.scene.solids.is_empty() {
         return Err("the box has solids inside, the channels of the table plane walls only".to_owned());
     }
-    let walls =
-        scene.domain.boundaries.by_axis().into_iter().filter(|faces| faces.contains(&Boundary::NoSlip));
+    let walls = facts.faces.iter().filter(|faces| faces.contains(&Boundary::NoSlip));
     if walls.count() > 1 {
         return Err("walls along two axes make a duct, and the table has plane channels".to_owned());
     }
-    if scene.domain.boundaries.by_axis().into_iter().flatten().any(|b| b == Boundary::FreeSlip) {
+    if facts.faces.iter().flatten().any(|b| *b == Boundary::FreeSlip) {
         differences.push("it has no mirror plane".to_owned());
     }
-    let force = extreme_forces(&total_force(scene))[0];
-    let closed = closed_axes(scene);
     if !(0..3).any(|a| !closed[a] && force[a] != 0.0) {
         return Err("no force drives the fluid along the walls".to_owned());
     }
@@ -138,7 +137,7 @@ fn channel_case(scene: &Scene, fluid: Fluid, differences: &mut Vec<String>) -> R
 
 /// Cells of the shortest wave of a periodic flow.
 fn wave(
-    scene: &Scene,
+    facts: &Facts,
     numbers: &Numbers,
     fluid: Fluid,
     differences: &mut Vec<String>,
@@ -146,7 +145,7 @@ fn wave(
     if fluid != Fluid::Newtonian {
         return Err("the table has no flow without walls of a fluid with a yield stress".to_owned());
     }
-    let counts: [f64; 3] = match scene.fluid.initial_velocity {
+    let counts: [f64; 3] = match facts.scene.fluid.initial_velocity {
         InitialVelocity::AtRest | InitialVelocity::Uniform { .. } => {
             return Err("without walls and waves the scene has no length to count cells along".to_owned());
         }
@@ -174,14 +173,15 @@ fn wave(
 }
 
 /// The scheme of a scene in the table; `None` where it has none like it.
-pub(super) fn scheme_of(scene: &Scene, setup: &Setup, case: Case) -> Option<Scheme> {
+pub(super) fn scheme_of(facts: &Facts, setup: &Setup, case: Case) -> Option<Scheme> {
     let yields =
         !matches!(case, Case::ChannelNewtonian | Case::Vortex | Case::FilmNewtonian | Case::DamBreak);
-    let operator = match (&scene.numerics.yield_treatment, operator(scene)) {
+    let operator = match (&facts.scene.numerics.yield_treatment, operator(facts)) {
         (YieldChoice::LaggedClamped(_), SceneOperator::Bgk) if yields => Operator::LaggedClamp,
         (YieldChoice::Exact, SceneOperator::Bgk) if !yields => Operator::Bgk,
         (YieldChoice::Exact, SceneOperator::CentralMoment) => Operator::CentralMoment,
         (YieldChoice::Exact, SceneOperator::Trt) => Operator::Trt,
+        // The table is what was measured: any other pair is not in it.
         _ => return None,
     };
     let walls = match (case, setup.wall_rule) {

@@ -17,100 +17,95 @@ pub struct Need {
     pub because: &'static str,
 }
 
+impl Need {
+    /// A pass, and why the run has it or has it not.
+    pub(super) const fn of(pass: &'static str, needed: bool, yes: &'static str, no: &'static str) -> Self {
+        Self { pass, needed, because: if needed { yes } else { no } }
+    }
+}
+
 pub(super) fn passes(scene: &Scene, setup: &Setup) -> Vec<Need> {
-    let need = |pass, needed, because| Need { pass, needed, because };
-    let constant = setup.fluids.iter().all(|law| matches!(law, crate::rheology::Law::Newtonian { .. }));
+    let mut needs = surface_passes(setup);
+    needs.extend(flow_passes(setup));
+    let steady = scene.stop.steady.is_some();
+    needs.push(Need::of("steadiness check", steady, "`stop.steady` was given", "runs to the end time"));
+    if scene.stop.arrested.is_some() {
+        needs.push(Need::of("check for rest", true, "`stop.arrested` was given", ""));
+    }
+    needs
+}
+
+fn flow_passes(setup: &Setup) -> [Need; 9] {
+    let varies = !setup.fluids.iter().all(|law| law.constant_tau().is_some());
     let lagged = matches!(setup.yielding, YieldTreatment::LaggedClamped { .. });
     let forced = match setup.force {
         BodyForce::Constant(f) => norm(f) > 0.0,
         BodyForce::Oscillating { .. } | BodyForce::Stepped { .. } => true,
     };
     let walls = setup.faces.iter().flatten().any(|face| *face != Face::Periodic);
-    let mut needs = surface_passes(setup);
-    needs.extend(vec![
-        if constant {
-            need("shear-rate solve", false, "all fluids are Newtonian: one relaxation time each")
-        } else {
-            need("shear-rate solve", true, "the viscosity depends on the shear rate [Y3]")
-        },
-        if lagged {
-            need("relaxation-time field", true, "the lagged scheme reads the previous step [Y4]")
-        } else {
-            need("relaxation-time field", false, "solved within the cell; nothing is stored")
-        },
-        if setup.solids.is_empty() {
-            need("solid lookup", false, "no solids inside the box")
-        } else {
-            need("solid lookup", true, "links may end in solids [B1]")
-        },
-        if setup.grains.is_some() {
-            need("grains", true, "links, covered cells, contacts and lubrication [C1]-[C6]")
-        } else {
-            need("grains", false, "no grains in the fluid: no owners, no links, no contacts")
-        },
-        if setup.fluid_of_cell.is_empty() {
-            need("fluid lookup", false, "one fluid")
-        } else {
-            need("fluid lookup", true, "each cell names its fluid")
-        },
-        if walls {
-            need("wall links", true, "faces with walls or mirrors [B1] [B2]")
-        } else {
-            need("wall links", false, "all faces are periodic")
-        },
-        if forced {
-            need("body force", true, "gravity or a body force acts [L5]")
-        } else {
-            need("body force", false, "no force")
-        },
-        if setup.wall_rule == WallRule::ViscosityIndependent {
-            need("wall-slip correction", true, "`viscosity_independent` was chosen [B3]")
-        } else {
-            need("wall-slip correction", false, "plain half-way walls")
-        },
-        if setup.stress_source {
-            need("third-moment source", true, "`stress_source` was chosen [K6]")
-        } else {
-            need("third-moment source", false, "not chosen")
-        },
-        if scene.stop.steady.is_some() {
-            need("steadiness check", true, "`stop.steady` was given")
-        } else {
-            need("steadiness check", false, "runs to the end time")
-        },
-    ]);
-    if scene.stop.arrested.is_some() {
-        needs.push(need("check for rest", true, "`stop.arrested` was given"));
-    }
-    needs
+    [
+        Need::of(
+            "shear-rate solve",
+            varies,
+            "the viscosity depends on the shear rate [Y3]",
+            "all fluids are Newtonian: one relaxation time each",
+        ),
+        Need::of(
+            "relaxation-time field",
+            lagged,
+            "the lagged scheme reads the previous step [Y4]",
+            "solved within the cell; nothing is stored",
+        ),
+        Need::of(
+            "solid lookup",
+            !setup.solids.is_empty(),
+            "links may end in solids [B1]",
+            "no solids inside the box",
+        ),
+        Need::of(
+            "grains",
+            setup.grains.is_some(),
+            "links, covered cells, contacts and lubrication [C1]-[C6]",
+            "no grains in the fluid: no owners, no links, no contacts",
+        ),
+        Need::of("fluid lookup", !setup.fluid_of_cell.is_empty(), "each cell names its fluid", "one fluid"),
+        Need::of("wall links", walls, "faces with walls or mirrors [B1] [B2]", "all faces are periodic"),
+        Need::of("body force", forced, "gravity or a body force acts [L5]", "no force"),
+        Need::of(
+            "wall-slip correction",
+            setup.wall_rule == WallRule::ViscosityIndependent,
+            "`viscosity_independent` was chosen [B3]",
+            "plain half-way walls",
+        ),
+        Need::of("third-moment source", setup.stress_source, "`stress_source` was chosen [K6]", "not chosen"),
+    ]
 }
 
 fn surface_passes(setup: &Setup) -> Vec<Need> {
-    let need = |pass, needed, because| Need { pass, needed, because };
     let Some(surface) = &setup.free_surface else {
-        return vec![need("free surface", false, "fluid fills the box: no mass, fill or conversion passes")];
+        let none = "fluid fills the box: no mass, fill or conversion passes";
+        return vec![Need::of("free surface", false, "", none)];
     };
     vec![
-        need(
+        Need::of(
             "mass exchange and conversions",
             true,
             "`fluid.initial` leaves room for a free surface [F1] [F4]",
+            "",
         ),
-        need("ledger", true, "mass and momentum are booked in every step [F5]"),
-        if surface.force == SurfaceForce::ByFillAndInertia {
-            need("acceleration in surface cells", true, "`by_fill_and_inertia` was chosen [F3]")
-        } else {
-            need("acceleration in surface cells", false, "only for `by_fill_and_inertia` [F3]")
-        },
-        if surface.excess == ExcessRule::AlongNormal {
-            need("normals of the surface", true, "`along_normal` was chosen [F4]")
-        } else {
-            need("normals of the surface", false, "excess mass is shared evenly [F4]")
-        },
-        if setup.loads {
-            need("loads on solids", true, "a `force` probe asks for them [C7]")
-        } else {
-            need("loads on solids", false, "no `force` probe")
-        },
+        Need::of("ledger", true, "mass and momentum are booked in every step [F5]", ""),
+        Need::of(
+            "acceleration in surface cells",
+            surface.force == SurfaceForce::ByFillAndInertia,
+            "`by_fill_and_inertia` was chosen [F3]",
+            "only for `by_fill_and_inertia` [F3]",
+        ),
+        Need::of(
+            "normals of the surface",
+            surface.excess == ExcessRule::AlongNormal,
+            "`along_normal` was chosen [F4]",
+            "excess mass is shared evenly [F4]",
+        ),
+        Need::of("loads on solids", setup.loads, "a `force` probe asks for them [C7]", "no `force` probe"),
     ]
 }

@@ -1,12 +1,28 @@
 //! The table of `lahar plan`.
 
-use std::fmt::{self, Write};
+use std::fmt;
 
+use super::cost::{CELL_UPDATES_PER_SECOND, SPHERE_UPDATES_PER_SECOND, millions};
 use super::numbers::Numbers;
+use super::text::{passes, row, short, warnings};
 
 /// Writes the table.
 pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     writeln!(f, "{}", n.title)?;
+    box_of_cells(f, n)?;
+    time(f, n)?;
+    flow(f, n)?;
+    scheme(f, n)?;
+    if let Some(grains) = &n.grains {
+        super::coupled::table(f, grains)?;
+    }
+    memory(f, n)?;
+    passes(f, &n.passes)?;
+    cost(f, n)?;
+    warnings(f, &n.warnings)
+}
+
+fn box_of_cells(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     let [nx, ny, nz] = n.extents;
     writeln!(f, "\nBox")?;
     let gas = n.gas_cells.map_or_else(String::new, |gas| format!(", {gas} air"));
@@ -28,10 +44,17 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     } else {
         row(f, "widest gap", format_args!("no walls"))?;
     }
+    Ok(())
+}
+
+fn time(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     writeln!(f, "\nTime")?;
     row(f, "time step", format_args!("{} s", short(n.time_step_s)))?;
     row(f, "", format_args!("{}", n.time_step_rule.sentence()))?;
-    row(f, "steps", format_args!("{} to {} s", n.steps, short(n.end_time_s)))?;
+    row(f, "steps", format_args!("{} to {} s", n.steps, short(n.end_time_s)))
+}
+
+fn flow(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     writeln!(f, "\nFlow")?;
     row(
         f,
@@ -54,6 +77,10 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
             format_args!("{} m, {cells} cells: σ0/(f along the bed)", short(thickness)),
         )?;
     }
+    Ok(())
+}
+
+fn scheme(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     writeln!(f, "\nScheme")?;
     row(f, "collision", format_args!("{}", n.operator))?;
     row(f, "plastic τ", format_args!("{:.4}", n.tau_plastic))?;
@@ -69,10 +96,10 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
             n.population_bytes,
             short(n.rounding_floor)
         ),
-    )?;
-    if let Some(grains) = &n.grains {
-        super::coupled::table(f, grains)?;
-    }
+    )
+}
+
+fn memory(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     writeln!(f, "\nMemory")?;
     for item in &n.memory {
         row(f, item.what, format_args!("{} bytes per cell", short(item.bytes_per_cell)))?;
@@ -81,36 +108,24 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
         f,
         "total",
         format_args!("{} bytes per cell, {} MiB", short(n.bytes_per_cell), short(n.bytes as f64 / 1048576.0)),
-    )?;
-    passes(f, n)?;
+    )
+}
+
+fn cost(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     writeln!(f, "\nCost")?;
     row(f, "cell updates", format_args!("{}", short(n.cell_updates)))?;
     row(
         f,
         "rough time",
         format_args!(
-            "{} s on one thread, assuming 10 million updates per second{}",
+            "{} s on one thread, assuming {} million updates per second{}",
             short(n.estimated_seconds),
-            if n.grains.is_some() { " and 2 million of spheres" } else { "" }
+            millions(CELL_UPDATES_PER_SECOND),
+            n.grains.as_ref().map_or_else(String::new, |_| {
+                format!(" and {} million of spheres", millions(SPHERE_UPDATES_PER_SECOND))
+            })
         ),
-    )?;
-    if !n.warnings.is_empty() {
-        writeln!(f, "\nWarnings")?;
-    }
-    for warning in &n.warnings {
-        writeln!(f, "  - {warning}")?;
-    }
-    Ok(())
-}
-
-/// A line of the table.
-pub(super) fn row(f: &mut fmt::Formatter<'_>, name: &str, value: fmt::Arguments<'_>) -> fmt::Result {
-    let padding = 38_usize.saturating_sub(name.chars().count());
-    write!(f, "  {name}")?;
-    for _ in 0..padding {
-        f.write_char(' ')?;
-    }
-    writeln!(f, "{value}")
+    )
 }
 
 fn stability(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
@@ -142,33 +157,6 @@ fn slip(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     )
 }
 
-fn passes(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
-    writeln!(f, "\nNeeded")?;
-    for pass in n.passes.iter().filter(|pass| pass.needed) {
-        row(f, pass.pass, format_args!("{}", pass.because))?;
-    }
-    writeln!(f, "\nNot needed, not paid for")?;
-    for pass in n.passes.iter().filter(|pass| !pass.needed) {
-        row(f, pass.pass, format_args!("{}", pass.because))?;
-    }
-    Ok(())
-}
-
 fn tau(tau: f64) -> String {
     if tau.is_finite() { format!("{tau:.4}") } else { "∞ (γ̇ = 0)".to_owned() }
-}
-
-/// Four significant digits; scientific outside 1e-3 … 1e6.
-pub(super) fn short(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return if value == f64::INFINITY { "∞".to_owned() } else { format!("{value}") };
-    }
-    let magnitude = libm::floor(libm::log10(value.abs()));
-    if (-3.0..6.0).contains(&magnitude) {
-        let decimals = if magnitude < 3.0 { (3.0 - magnitude) as usize } else { 0 };
-        let text = format!("{value:.decimals$}");
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-    } else {
-        format!("{value:.3e}")
-    }
 }

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::print::{row, short};
 use super::target::{Answer, Covered, Quote};
+use super::text::{row, short};
 
 impl fmt::Display for Quote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,10 +1,11 @@
 //! How fast the flow is expected to be, from what drives it.
 
 use super::cells::Cells;
-use super::law::{apparent_viscosity, channel_velocity, shear_rate};
+use super::facts::Facts;
 use super::surface::Pool;
-use crate::scene::force::{driving_force, extreme_forces, norm, total_force};
-use crate::scene::{BodyForce, Boundary, InitialVelocity, Rheology, Scene};
+use crate::rheology::FlowCurve;
+use crate::scene::force::norm;
+use crate::scene::{BodyForce, Boundary, InitialVelocity, Scene};
 
 /// Expected scales, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,15 +22,10 @@ pub struct Scales {
     pub force: f64,
 }
 
-/// Axes along which nothing can flow through: a face is a wall or a mirror.
-#[must_use]
-pub fn closed_axes(scene: &Scene) -> [bool; 3] {
-    scene.domain.boundaries.by_axis().map(|faces| faces[0] != Boundary::Periodic)
-}
-
 /// Scales of a scene.
 #[must_use]
-pub fn scales(scene: &Scene, cells: &Cells) -> Scales {
+pub fn scales(facts: &Facts, cells: &Cells) -> Scales {
+    let scene = facts.scene;
     let dx = scene.domain.spacing_m;
     let length = if let Some(pool) = &cells.pool {
         pool.depth
@@ -38,29 +34,27 @@ pub fn scales(scene: &Scene, cells: &Cells) -> Scales {
     } else {
         scene.domain.size_m.into_iter().fold(0.0, greatest)
     };
-    let force = driving_force(scene);
-    let extremes = extreme_forces(&force);
-    let closed = closed_axes(scene);
+    let extremes = facts.forces.driving_extremes;
     let driving = extremes
-        .map(|f| norm(std::array::from_fn(|a| if closed[a] { 0.0 } else { f[a] })))
+        .map(|f| norm(std::array::from_fn(|a| if facts.closed[a] { 0.0 } else { f[a] })))
         .into_iter()
         .fold(0.0, greatest);
-    let laws = std::iter::once(&scene.fluid.rheology).chain(scene.layers.iter().map(|l| &l.rheology));
-    let laws: Vec<&Rheology> = laws.collect();
     let half_gap = 0.5 * cells.gap * dx;
     let driven = match &cells.pool {
-        Some(pool) => surface_velocity(scene, pool),
-        None => laws.iter().map(|law| driven_velocity(scene, law, driving, half_gap)).fold(0.0, greatest),
+        Some(pool) => surface_velocity(facts, pool),
+        None => {
+            facts.curves().map(|curve| driven_velocity(scene, curve, driving, half_gap)).fold(0.0, greatest)
+        }
     };
-    let walls = wall_speed(scene, cells);
+    let walls = wall_speed(facts, cells);
     let (initial, initial_rate) = initial_scales(scene);
     let estimate = greatest(walls, initial) + driven;
     let velocity = scene.numerics.reference_velocity_m_per_s.unwrap_or(estimate);
     let wall_rate = if cells.pool.is_some() {
         // No more than the whole velocity over one cell.
-        least(shear_rate(&scene.fluid.rheology, driving * length), velocity / dx)
+        least(facts.curve().shear_rate_at(driving * length), velocity / dx)
     } else if half_gap.is_finite() {
-        laws.iter().map(|law| shear_rate(law, driving * half_gap)).fold(0.0, greatest)
+        facts.curves().map(|curve| curve.shear_rate_at(driving * half_gap)).fold(0.0, greatest)
     } else {
         0.0
     };
@@ -76,23 +70,22 @@ pub fn scales(scene: &Scene, cells: &Cells) -> Scales {
 
 /// Largest speed of a flow with a free surface: a level film flows as the force along it says; anything
 /// else collapses, falls freely, or runs down the slope.
-fn surface_velocity(scene: &Scene, pool: &Pool) -> f64 {
-    let law = &scene.fluid.rheology;
+fn surface_velocity(facts: &Facts, pool: &Pool) -> f64 {
+    let (scene, curve) = (facts.scene, facts.curve());
     let rho = scene.fluid.density_kg_per_m3;
-    let closed = closed_axes(scene);
     let mut most = 0.0;
-    for force in extreme_forces(&total_force(scene)) {
+    for force in facts.forces.extremes {
         let along: [f64; 3] = std::array::from_fn(|a| if a == pool.up.index() { 0.0 } else { force[a] });
-        let walled = (0..3).any(|a| closed[a] && along[a] != 0.0);
+        let walled = (0..3).any(|a| facts.closed[a] && along[a] != 0.0);
         let (along, across) = (norm(along), force[pool.up.index()].abs());
-        let film = least(channel_velocity(law, along, pool.depth), along / rho * scene.stop.end_time_s);
+        let film = least(curve.channel_velocity(along, pool.depth), along / rho * scene.stop.end_time_s);
         let longest = scene.domain.size_m.into_iter().fold(0.0, greatest);
         let slope = least(film, (2.0 * along / rho * longest).sqrt());
         let fall = least((2.0 * across / rho * pool.fall).sqrt(), across / rho * scene.stop.end_time_s);
         let speed = if pool.level && !walled {
             film
         } else {
-            greatest(slope, collapse_velocity(law, rho, norm(force), pool.depth))
+            greatest(slope, collapse_velocity(curve, rho, norm(force), pool.depth))
         };
         most = greatest(most, greatest(speed, fall));
     }
@@ -101,11 +94,11 @@ fn surface_velocity(scene: &Scene, pool: &Pool) -> f64 {
 
 /// U of a collapsing heap of depth h: ½ρU² + 2σ(2U/h) = 2 f h. Without viscosity it is Ritter's front,
 /// 2√(gh); for a slow Newtonian fluid f h²/(2μ), that of a film on a slope of 45°.
-fn collapse_velocity(law: &Rheology, rho: f64, force: f64, depth: f64) -> f64 {
+fn collapse_velocity(curve: &dyn FlowCurve, rho: f64, force: f64, depth: f64) -> f64 {
     let drive = 2.0 * force * depth;
     let excess = |u: f64| {
         let rate = 2.0 * u / depth;
-        0.5 * rho * u * u + 2.0 * apparent_viscosity(law, rate) * rate - drive
+        0.5 * rho * u * u + 2.0 * curve.apparent_viscosity(rate) * rate - drive
     };
     let (mut low, mut high) = (0.0, 2.0 * (force * depth / rho).sqrt());
     if high <= 0.0 {
@@ -121,7 +114,7 @@ fn collapse_velocity(law: &Rheology, rho: f64, force: f64, depth: f64) -> f64 {
 
 /// The steady channel flow, or what the force can accelerate to before the end or within one
 /// oscillation, whichever is less.
-fn driven_velocity(scene: &Scene, law: &Rheology, driving: f64, half_gap: f64) -> f64 {
+fn driven_velocity(scene: &Scene, curve: &dyn FlowCurve, driving: f64, half_gap: f64) -> f64 {
     if driving == 0.0 {
         return 0.0;
     }
@@ -135,13 +128,14 @@ fn driven_velocity(scene: &Scene, law: &Rheology, driving: f64, half_gap: f64) -
         _ => scene.stop.end_time_s,
     };
     let inertial = acceleration * time;
-    if half_gap.is_finite() { least(channel_velocity(law, driving, half_gap), inertial) } else { inertial }
+    if half_gap.is_finite() { least(curve.channel_velocity(driving, half_gap), inertial) } else { inertial }
 }
 
 /// Fastest wall: faces of the box and surfaces of solids, m/s.
-fn wall_speed(scene: &Scene, cells: &Cells) -> f64 {
+fn wall_speed(facts: &Facts, cells: &Cells) -> f64 {
+    let scene = facts.scene;
     let mut fastest: f64 = 0.0;
-    for face in scene.domain.boundaries.by_axis().into_iter().flatten() {
+    for face in facts.faces.into_iter().flatten() {
         if let Boundary::MovingWall { velocity_m_per_s } = face {
             fastest = greatest(fastest, norm(velocity_m_per_s));
         }
@@ -233,17 +227,18 @@ fn least(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rheology::Law;
 
     #[test]
     fn limits_of_the_collapse_velocity() {
         let (rho, g, h): (f64, f64, f64) = (1000.0, 9.81, 0.1);
-        let newtonian = |mu: f64| Rheology::Newtonian { viscosity_pa_s: mu };
-        let inviscid = collapse_velocity(&newtonian(1e-9), rho, rho * g, h);
+        let newtonian = |mu: f64| Law::Newtonian { mu }.curve();
+        let inviscid = collapse_velocity(&*newtonian(1e-9), rho, rho * g, h);
         assert!((inviscid / (2.0 * (g * h).sqrt()) - 1.0).abs() < 1e-6, "Ritter: {inviscid}");
         // Inertia is ρU²/2 against 4μU/h: a share of 1e-7 for U = 5e-4 m/s.
-        let creeping = collapse_velocity(&newtonian(1e5), rho, rho * g, h);
+        let creeping = collapse_velocity(&*newtonian(1e5), rho, rho * g, h);
         assert!((creeping / (rho * g * h * h / 2e5) - 1.0).abs() < 1e-6, "film: {creeping}");
-        let stiff = Rheology::Bingham { yield_stress_pa: 1000.0, plastic_viscosity_pa_s: 1.0 };
-        assert_eq!(collapse_velocity(&stiff, rho, rho * g, h), 0.0, "2σ0 > 2ρgh: it stands");
+        let stiff = Law::Bingham { sigma0: 1000.0, mu: 1.0 }.curve();
+        assert_eq!(collapse_velocity(&*stiff, rho, rho * g, h), 0.0, "2σ0 > 2ρgh: it stands");
     }
 }

@@ -1,8 +1,8 @@
 //! The fluid at time 0 of a scene with a free surface: fill of the cells, depths and falls.
 
+use super::facts::Facts;
 use crate::geometry::{Axis, Shape, covered};
-use crate::scene::force::{extreme_forces, total_force, up};
-use crate::scene::{FillLevel, Scene};
+use crate::scene::FillLevel;
 
 /// How the fluid lies at time 0, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,9 +25,9 @@ pub struct Pool {
 
 /// The shape of a fill level: everything on the side towards which gravity pulls.
 #[must_use]
-pub fn level_shape(scene: &Scene, level: &FillLevel) -> Shape {
-    let axis = level.axis.or_else(|| scene.up_axis()).unwrap_or(Axis::Z);
-    let pull = extreme_forces(&total_force(scene))[0][axis.index()];
+pub fn level_shape(facts: &Facts, level: &FillLevel) -> Shape {
+    let axis = level.axis.or_else(|| facts.forces.up_axis()).unwrap_or(Axis::Z);
+    let pull = facts.forces.extremes[0][axis.index()];
     let (mut point_m, mut normal) = ([0.0; 3], [0.0; 3]);
     point_m[axis.index()] = level.height_m;
     normal[axis.index()] = if pull > 0.0 { -1.0 } else { 1.0 };
@@ -36,11 +36,11 @@ pub fn level_shape(scene: &Scene, level: &FillLevel) -> Shape {
 
 /// Fill of every cell at time 0, 0 in solids; `None` without a free surface.
 #[must_use]
-pub fn fill(scene: &Scene, extents: [usize; 3], solids: &[u8]) -> Option<Vec<f64>> {
-    let initial = scene.fluid.initial.as_ref()?;
-    let level = initial.fill_level.as_ref().map(|level| level_shape(scene, level));
+pub fn fill(facts: &Facts, extents: [usize; 3], solids: &[u8]) -> Option<Vec<f64>> {
+    let initial = facts.scene.fluid.initial.as_ref()?;
+    let level = initial.fill_level.as_ref().map(|level| level_shape(facts, level));
     let shapes: Vec<&Shape> = level.iter().chain(initial.shapes.iter().map(|part| &part.shape)).collect();
-    Some(shares(&shapes, extents, scene.domain.spacing_m, solids))
+    Some(shares(&shapes, extents, facts.scene.domain.spacing_m, solids))
 }
 
 /// Share of every cell inside any of the shapes, 0 in solids.
@@ -63,9 +63,9 @@ pub fn shares(shapes: &[&Shape], extents: [usize; 3], dx: f64, solids: &[u8]) ->
 
 /// Depths and falls of a fill.
 #[must_use]
-pub fn pool(scene: &Scene, extents: [usize; 3], solids: &[u8], fill: &[f64]) -> Pool {
-    let dx = scene.domain.spacing_m;
-    let (up, down_is_low) = up(scene);
+pub fn pool(facts: &Facts, extents: [usize; 3], solids: &[u8], fill: &[f64]) -> Pool {
+    let dx = facts.scene.domain.spacing_m;
+    let (up, down_is_low) = (facts.forces.up, facts.forces.down_is_low);
     let solid = |cell: usize| solids.get(cell).is_some_and(|&s| s != 0);
     let runs = Axis::ALL.map(|axis| {
         let mut longest = 0.0;
@@ -78,7 +78,7 @@ pub fn pool(scene: &Scene, extents: [usize; 3], solids: &[u8], fill: &[f64]) -> 
         });
         longest * dx
     });
-    let periodic = scene.domain.boundaries.by_axis()[up.index()][0] == crate::scene::Boundary::Periodic;
+    let periodic = !facts.closed[up.index()];
     let (mut depths, mut fall) = (Vec::new(), 0.0_f64);
     for_lines(up, extents, |line| {
         let mut cells: Vec<usize> = line.collect();
@@ -129,8 +129,10 @@ mod tests {
     use crate::plan::cells;
 
     fn pool_of(text: &str) -> Pool {
-        let scene = crate::scene::from_json(text, "scene.json").unwrap_or_else(|error| panic!("{error}"));
-        cells::fill(&scene).pool.unwrap_or_else(|| panic!("no surface"))
+        let folder = std::path::Path::new(".");
+        let scene = crate::scene::flow_from_json(text, "scene.json", folder);
+        let scene = scene.unwrap_or_else(|error| panic!("{error}"));
+        cells::fill(&Facts::of(&scene)).pool.unwrap_or_else(|| panic!("no surface"))
     }
 
     /// A reservoir of 0.03 m² in one row of cells 3 mm wide, cut along its slanted surface exactly.

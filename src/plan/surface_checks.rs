@@ -2,6 +2,7 @@
 
 use super::cells::Cells;
 use super::error::PlanProblem;
+use super::facts::Facts;
 use super::surface::{level_shape, shares};
 use crate::geometry::{Axis, Shape};
 use crate::lattice::C;
@@ -10,10 +11,11 @@ use crate::scene::{Boundary, FACE_KEYS, Scene};
 type Found = Result<(), (String, PlanProblem)>;
 
 /// Every part of the fluid fills something, some room is left, and nothing touches an open face.
-pub(super) fn surface(scene: &Scene, cells: &Cells) -> Found {
+pub(super) fn surface(facts: &Facts, cells: &Cells) -> Found {
+    let scene = facts.scene;
     let Some(initial) = &scene.fluid.initial else { return Ok(()) };
     let dx = scene.domain.spacing_m;
-    let level = initial.fill_level.as_ref().map(|level| level_shape(scene, level));
+    let level = initial.fill_level.as_ref().map(|level| level_shape(facts, level));
     let level = level.iter().map(|shape| ("fluid.initial.fill_level".to_owned(), "fill_level", shape));
     let parts = initial.shapes.iter().enumerate().map(|(i, part)| {
         let path = format!("fluid.initial.shapes[{i}].shape");
@@ -30,8 +32,8 @@ pub(super) fn surface(scene: &Scene, cells: &Cells) -> Found {
             return Err((path, PlanProblem::FluidInsideSolids { name, solids: around(scene, cells, shape) }));
         }
     }
-    room(cells, scene)?;
-    open_faces(cells, scene)
+    room(cells, facts)?;
+    open_faces(cells, facts)
 }
 
 /// Names of the solids that hold the cells of a shape.
@@ -46,14 +48,14 @@ fn around(scene: &Scene, cells: &Cells, shape: &Shape) -> String {
 }
 
 /// Fluid that fills everything it can reach has no free surface.
-fn room(cells: &Cells, scene: &Scene) -> Found {
+fn room(cells: &Cells, facts: &Facts) -> Found {
     let [nx, ny, nz] = cells.extents;
     let solid = |cell: usize| cells.solids.get(cell).is_some_and(|&s| s != 0);
     let mut seen = vec![false; cells.fill.len()];
     let mut edge: Vec<usize> = (0..seen.len()).filter(|&cell| cells.fill[cell] > 0.0).collect();
     edge.iter().for_each(|&cell| seen[cell] = true);
     let fluid = edge.len() as u64;
-    let periodic = scene.domain.boundaries.by_axis().map(|faces| faces[0] == Boundary::Periodic);
+    let periodic = facts.closed.map(|closed| !closed);
     while let Some(cell) = edge.pop() {
         if cells.fill[cell] < 1.0 {
             return Ok(());
@@ -89,9 +91,9 @@ fn step(at: [usize; 3], c: &[i32; 3], extents: [usize; 3], periodic: [bool; 3]) 
     Some(next)
 }
 
-fn open_faces(cells: &Cells, scene: &Scene) -> Found {
+fn open_faces(cells: &Cells, facts: &Facts) -> Found {
     let [nx, ny, _] = cells.extents;
-    for (axis, faces) in Axis::ALL.into_iter().zip(scene.domain.boundaries.by_axis()) {
+    for (axis, faces) in Axis::ALL.into_iter().zip(facts.faces) {
         let a = axis.index();
         for (side, face) in faces.iter().enumerate() {
             if *face != Boundary::Open {
@@ -104,7 +106,7 @@ fn open_faces(cells: &Cells, scene: &Scene) -> Found {
                 .filter(|at| at[a] == layer)
                 .collect();
             if let Some(first) = touching.first() {
-                let at_m = first.map(|i| (i as f64 + 0.5) * scene.domain.spacing_m);
+                let at_m = first.map(|i| (i as f64 + 0.5) * facts.scene.domain.spacing_m);
                 let key = FACE_KEYS[a][side];
                 let problem = PlanProblem::OpenUnderFluid { face: key, cells: touching.len() as u64, at_m };
                 return Err((format!("domain.boundaries.{key}"), problem));

@@ -5,6 +5,7 @@ use std::str::FromStr;
 use serde::Serialize;
 
 use super::cells::{self, Cells};
+use super::facts::Facts;
 use super::nearest_flow::{case_of, scheme_of};
 use super::scale;
 use super::time_step;
@@ -23,13 +24,19 @@ pub enum TargetError {
     #[error(
         "`{found}` is not a number\n  allowed: a share or a percentage\n  way out: for example `1%` or `0.01`"
     )]
-    NotANumber { found: String },
+    NotANumber {
+        /// As given.
+        found: String,
+    },
     /// A number that is no error to aim at.
     #[error(
         "found {found}\n  allowed: 1e-6 to 0.5 (0.0001% to 50%); below that rounding and compressibility decide, above it \
          nothing is computed\n  way out: for example `1%` or `0.01`"
     )]
-    OutOfRange { found: String },
+    OutOfRange {
+        /// As given.
+        found: String,
+    },
 }
 
 impl FromStr for Target {
@@ -142,11 +149,12 @@ pub fn quote(scene: &Scene, plan: &Plan, target: Target) -> Result<Quote, serde_
     Ok(quote_from(&Work::built_in()?, scene, plan, target))
 }
 
-/// The same from another table.
+/// What another table says about a scene and its plan.
 #[must_use]
 pub fn quote_from(work: &Work, scene: &Scene, plan: &Plan, target: Target) -> Quote {
-    let cells = cells::fill(scene);
-    let answer = match case_of(scene, &plan.numbers, &cells) {
+    let facts = Facts::of(scene);
+    let cells = cells::fill(&facts);
+    let answer = match case_of(&facts, &plan.numbers, &cells) {
         Err(why) => Answer::NotCovered(why),
         Ok((case, ..)) if target.share() < case.reference_error() => Answer::NotCovered(format!(
             "the nearest flow, {}, is compared with lubrication theory, which is itself off by up to {} %",
@@ -154,7 +162,7 @@ pub fn quote_from(work: &Work, scene: &Scene, plan: &Plan, target: Target) -> Qu
             100.0 * case.reference_error()
         )),
         Ok((case, along, differences)) => {
-            covered(work, scene, plan, &cells, target, (case, along, differences)).map_or_else(
+            covered(work, &facts, plan, &cells, target, (case, along, differences)).map_or_else(
                 || Answer::NotCovered(format!("the table has no result for `{}`", case.name())),
                 |covered| Answer::Covered(Box::new(covered)),
             )
@@ -165,14 +173,14 @@ pub fn quote_from(work: &Work, scene: &Scene, plan: &Plan, target: Target) -> Qu
 
 fn covered(
     work: &Work,
-    scene: &Scene,
+    facts: &Facts,
     plan: &Plan,
     cells: &Cells,
     target: Target,
     (case, along, differences): (Case, f64, Vec<String>),
 ) -> Option<Covered> {
     let numbers = &plan.numbers;
-    let expected = scheme_of(scene, &plan.setup, case)
+    let expected = scheme_of(facts, &plan.setup, case)
         .and_then(|scheme| predicted(work, case, scheme, numbers.tau_plastic, along));
     let (choice, reached) = match recommend(work, case, target.share()) {
         Advice::Reached(choice) => (choice, true),
@@ -188,13 +196,13 @@ fn covered(
         error_as_written: expected.map(|(error, _)| error),
         extrapolated: expected.is_some_and(|(_, outside)| outside),
         reached,
-        advice: recommended(work, scene, numbers, cells, &choice, along),
+        advice: recommended(work, facts, numbers, cells, &choice, along),
     })
 }
 
 fn recommended(
     work: &Work,
-    scene: &Scene,
+    facts: &Facts,
     numbers: &Numbers,
     cells: &Cells,
     choice: &Choice,
@@ -202,10 +210,10 @@ fn recommended(
 ) -> Recommended {
     let point = &choice.point;
     let spacing = numbers.spacing_m * along / point.n;
-    let mut changed = scene.clone();
+    let mut changed = facts.scene.clone();
     changed.domain.spacing_m = spacing;
-    let scales = scale::scales(scene, cells);
-    let dt = time_step::with_tau(&changed, &scales, cells.pool.as_ref(), point.tau);
+    let scales = scale::scales(facts, cells);
+    let dt = time_step::with_tau(&Facts::of(&changed), &scales, cells.pool.as_ref(), point.tau);
     // Axes of one cell stay one cell thick.
     let axes = numbers.extents.iter().filter(|&&n| n > 1).count();
     let more = (0..axes).fold(1.0, |product, _| product * numbers.spacing_m / spacing);

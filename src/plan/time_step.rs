@@ -3,10 +3,9 @@
 use serde::Serialize;
 
 use super::error::PlanProblem;
-use super::law::{parameters, plastic_viscosity};
-use super::scale::{Scales, closed_axes};
+use super::facts::Facts;
+use super::scale::Scales;
 use super::surface::Pool;
-use crate::scene::force::{driving_force, extreme_forces};
 use crate::scene::{BodyForce, Scene};
 use crate::units::Units;
 
@@ -56,10 +55,12 @@ impl StepRule {
             Self::RelaxationTime => "from `numerics.relaxation_time` of the plastic viscosity",
             Self::TargetMach => "from `numerics.target_mach` and the reference velocity",
             Self::Speed => {
-                "chosen: reference velocity at 0.05 cells per step (least of that, plastic τ = 1, 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
+                "chosen: reference velocity at 0.05 cells per step (least of that, plastic τ = 1, \
+                 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
             }
             Self::Surge => {
-                "chosen: fastest surge at 0.1 cells per step (least of that, plastic τ = 1, 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
+                "chosen: fastest surge at 0.1 cells per step (least of that, plastic τ = 1, \
+                 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
             }
             Self::SpeedForTau => {
                 "chosen: reference velocity above 0.05, up to 0.1 cells per step, to bring the plastic τ up to 0.55"
@@ -68,10 +69,12 @@ impl StepRule {
                 "chosen: plastic τ = 1 (least of that, 0.05 cells per step, 3fHΔt²/(ρΔx²) = 0.02, 200 steps)"
             }
             Self::Compression => {
-                "chosen: compression by the wall-normal force, 3fHΔt²/(ρΔx²) = 0.02 (least of that, 0.05 cells per step, plastic τ = 1, 200 steps)"
+                "chosen: compression by the wall-normal force, 3fHΔt²/(ρΔx²) = 0.02 (least of that, 0.05 cells per step, \
+                 plastic τ = 1, 200 steps)"
             }
             Self::Duration => {
-                "chosen: 200 steps per oscillation or run (least of that, 0.05 cells per step, plastic τ = 1, 3fHΔt²/(ρΔx²) = 0.02)"
+                "chosen: 200 steps per oscillation or run (least of that, 0.05 cells per step, plastic τ = 1, \
+                 3fHΔt²/(ρΔx²) = 0.02)"
             }
         }
     }
@@ -83,7 +86,12 @@ impl StepRule {
             Self::Given => "numerics.time_step_s",
             Self::RelaxationTime => "numerics.relaxation_time",
             Self::TargetMach => "numerics.target_mach",
-            _ => "numerics",
+            Self::Speed
+            | Self::Surge
+            | Self::SpeedForTau
+            | Self::Tau
+            | Self::Compression
+            | Self::Duration => "numerics",
         }
     }
 
@@ -97,29 +105,29 @@ impl StepRule {
 /// Viscosity without yield stress at the reference shear rate, Pa s; `None` when the law has no
 /// such scale.
 #[must_use]
-pub fn reference_viscosity(scene: &Scene, scales: &Scales) -> Option<f64> {
-    let law = &scene.fluid.rheology;
-    let p = parameters(law);
-    if p.n == 1.0 {
-        return Some(p.k);
-    }
-    // At rest the yield stress sets the rate: K γ̇ⁿ = σ0.
-    let rate = if scales.shear_rate > 0.0 { scales.shear_rate } else { libm::pow(p.sigma0 / p.k, 1.0 / p.n) };
-    (rate > 0.0).then(|| plastic_viscosity(law, rate))
+pub fn reference_viscosity(facts: &Facts, scales: &Scales) -> Option<f64> {
+    let curve = facts.curve();
+    curve.constant_plastic_viscosity().or_else(|| {
+        // At rest the yield stress sets the rate: the viscous stress is as large.
+        let at_rest = || curve.shear_rate_at(2.0 * curve.plastic_stress());
+        let rate = if scales.shear_rate > 0.0 { scales.shear_rate } else { at_rest() };
+        (rate > 0.0).then(|| curve.plastic_viscosity(rate))
+    })
 }
 
 /// Δt in s and what fixed it.
 ///
 /// # Errors
 /// Neither a velocity nor a viscosity is known.
-pub fn choose(scene: &Scene, scales: &Scales, pool: Option<&Pool>) -> Result<(f64, StepRule), PlanProblem> {
+pub fn choose(facts: &Facts, scales: &Scales, pool: Option<&Pool>) -> Result<(f64, StepRule), PlanProblem> {
+    let scene = facts.scene;
     let dx = scene.domain.spacing_m;
     let rho = scene.fluid.density_kg_per_m3;
     let numerics = &scene.numerics;
     if let Some(dt) = numerics.time_step_s {
         return Ok((dt, StepRule::Given));
     }
-    let viscosity = reference_viscosity(scene, scales).ok_or(PlanProblem::NoVelocityScale)?;
+    let viscosity = reference_viscosity(facts, scales).ok_or(PlanProblem::NoVelocityScale)?;
     // [L6]: Δt = (τ − ½) ρ Δx² / (3 μ).
     let of_tau = |tau: f64| (tau - 0.5) / 3.0 * rho * dx * dx / viscosity;
     let of_speed = |u: f64| u * dx / scales.velocity;
@@ -132,12 +140,13 @@ pub fn choose(scene: &Scene, scales: &Scales, pool: Option<&Pool>) -> Result<(f6
         }
         return Ok((of_speed(mach / 3.0_f64.sqrt()), StepRule::TargetMach));
     }
-    Ok(free(scene, scales, pool, TAU, viscosity))
+    Ok(free(facts, scales, pool, TAU, viscosity))
 }
 
 /// Δt where nothing is given: the least of what `tau` of the plastic viscosity, the speed, compression and
 /// the duration allow.
-fn free(scene: &Scene, scales: &Scales, pool: Option<&Pool>, tau: f64, viscosity: f64) -> (f64, StepRule) {
+fn free(facts: &Facts, scales: &Scales, pool: Option<&Pool>, tau: f64, viscosity: f64) -> (f64, StepRule) {
+    let scene = facts.scene;
     let dx = scene.domain.spacing_m;
     let rho = scene.fluid.density_kg_per_m3;
     let of_tau = |tau: f64| (tau - 0.5) / 3.0 * rho * dx * dx / viscosity;
@@ -159,7 +168,7 @@ fn free(scene: &Scene, scales: &Scales, pool: Option<&Pool>, tau: f64, viscosity
             lower(if low < fast { low } else { fast }, StepRule::SpeedForTau);
         }
     }
-    lower(compression_step(scene, pool), StepRule::Compression);
+    lower(compression_step(facts, pool), StepRule::Compression);
     lower(duration(scene) / STEPS_PER_PERIOD, StepRule::Duration);
     best
 }
@@ -167,19 +176,20 @@ fn free(scene: &Scene, scales: &Scales, pool: Option<&Pool>, tau: f64, viscosity
 /// Δt with another aim for τ of the plastic viscosity, whatever the scene gives; `None` when the law has no
 /// viscosity of its own.
 #[must_use]
-pub fn with_tau(scene: &Scene, scales: &Scales, pool: Option<&Pool>, tau: f64) -> Option<f64> {
-    let viscosity = reference_viscosity(scene, scales)?;
-    Some(free(scene, scales, pool, tau, viscosity).0)
+pub fn with_tau(facts: &Facts, scales: &Scales, pool: Option<&Pool>, tau: f64) -> Option<f64> {
+    let viscosity = reference_viscosity(facts, scales)?;
+    Some(free(facts, scales, pool, tau, viscosity).0)
 }
 
 /// \[F7\]: the largest Δt with 3 f H Δt²/(ρ Δx²) ≤ 0.02 along every walled axis; H is the
 /// edge of the box, or the longest stretch of fluid below a free surface.
-fn compression_step(scene: &Scene, pool: Option<&Pool>) -> f64 {
+fn compression_step(facts: &Facts, pool: Option<&Pool>) -> f64 {
+    let scene = facts.scene;
     let heights = pool.map_or(scene.domain.size_m, |pool| pool.runs);
     let dx = scene.domain.spacing_m;
     let mut least = f64::INFINITY;
-    for force in extreme_forces(&driving_force(scene)) {
-        for (axis, closed) in closed_axes(scene).into_iter().enumerate() {
+    for force in facts.forces.driving_extremes {
+        for (axis, closed) in facts.closed.into_iter().enumerate() {
             let weight = 3.0 * force[axis].abs() * heights[axis];
             if closed && weight > 0.0 {
                 let dt = dx * (COMPRESSION * scene.fluid.density_kg_per_m3 / weight).sqrt();

@@ -2,26 +2,27 @@
 
 pub mod bagnold;
 mod bingham;
+mod curve;
 mod herschel_bulkley;
 mod newtonian;
 mod papanastasiou;
 mod power_law;
 mod power_sum;
-mod prepared;
 pub mod relaxation;
 mod yielding;
 
 use serde::{Deserialize, Serialize};
 
 use crate::lane::Lane;
+use crate::units::Units;
 
 pub use bingham::Bingham;
+pub use curve::{FlowCurve, PowerCurve};
 pub use herschel_bulkley::HerschelBulkley;
 pub use newtonian::Newtonian;
 pub use papanastasiou::Papanastasiou;
 pub use power_law::PowerLaw;
 pub use power_sum::PowerSum;
-pub use prepared::Prepared;
 pub use yielding::YieldTreatment;
 
 /// A monotone law σ(γ̇) in lattice units, ready for use in every cell.
@@ -53,8 +54,12 @@ pub trait Rheology: Clone + Send + Sync + 'static {
     }
 }
 
-/// A constitutive law in lattice units (reference density 1, so dynamic = kinematic values): parameters
-/// only. [`Law::prepare`] makes of it what runs compute with.
+/// A constitutive law: parameters only, in lattice units (reference density 1, so dynamic = kinematic values)
+/// wherever a run computes with them. [`Law::prepare`] makes of it what runs compute with, [`Law::curve`] what
+/// estimates ask.
+///
+/// A new law is a file of this folder and an entry in the two enums and the matches of this file; none of these has
+/// a `_` arm, so that the compiler names them all.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Law {
@@ -100,6 +105,81 @@ pub enum Law {
 }
 
 impl Law {
+    /// As people call it.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Newtonian { .. } => "Newtonian law",
+            Self::Bingham { .. } => "Bingham law",
+            Self::HerschelBulkley { .. } => "Herschel-Bulkley law",
+            Self::PowerLaw { .. } => "power law",
+            Self::Papanastasiou { .. } => "Papanastasiou law",
+        }
+    }
+
+    /// All its numbers.
+    #[must_use]
+    pub fn parameters(&self) -> Vec<f64> {
+        match *self {
+            Self::Newtonian { mu } => vec![mu],
+            Self::Bingham { sigma0, mu } => vec![sigma0, mu],
+            Self::HerschelBulkley { sigma0, k, n } => vec![sigma0, k, n],
+            Self::PowerLaw { k, n } => vec![k, n],
+            Self::Papanastasiou { sigma0, k, n, m } => vec![sigma0, k, n, m],
+        }
+    }
+
+    /// The law in lattice units; `self` is in SI units.
+    #[must_use]
+    pub fn to_lattice(&self, units: &Units) -> Self {
+        let stress = |pa| units.stress_to_lattice(pa);
+        let viscosity = |pa_s| units.viscosity_to_lattice(pa_s);
+        let consistency = |k, n| units.consistency_to_lattice(k, n);
+        match *self {
+            Self::Newtonian { mu } => Self::Newtonian { mu: viscosity(mu) },
+            Self::Bingham { sigma0, mu } => Self::Bingham { sigma0: stress(sigma0), mu: viscosity(mu) },
+            Self::HerschelBulkley { sigma0, k, n } => {
+                Self::HerschelBulkley { sigma0: stress(sigma0), k: consistency(k, n), n }
+            }
+            Self::PowerLaw { k, n } => Self::PowerLaw { k: consistency(k, n), n },
+            Self::Papanastasiou { sigma0, k, n, m } => Self::Papanastasiou {
+                sigma0: stress(sigma0),
+                k: consistency(k, n),
+                n,
+                m: units.time_to_lattice(m),
+            },
+        }
+    }
+
+    /// Its flow curve, for estimates, in the units of its parameters.
+    #[must_use]
+    pub fn curve(&self) -> Box<dyn FlowCurve> {
+        let power = |sigma0, k, n| Box::new(PowerCurve { sigma0, k, n });
+        match *self {
+            Self::Newtonian { mu } => power(0.0, mu, 1.0),
+            Self::Bingham { sigma0, mu } => power(sigma0, mu, 1.0),
+            Self::HerschelBulkley { sigma0, k, n } => power(sigma0, k, n),
+            Self::PowerLaw { k, n } => power(0.0, k, n),
+            Self::Papanastasiou { sigma0, k, n, m } => Box::new(Papanastasiou { sigma0, k, n, m }),
+        }
+    }
+
+    /// The law with what its local solve needs (a table, for the laws with a power), made once per run.
+    #[must_use]
+    pub fn prepare(&self) -> Prepared {
+        match *self {
+            Self::Newtonian { mu } => Prepared::Newtonian(Newtonian { mu }),
+            Self::Bingham { sigma0, mu } => Prepared::Bingham(Bingham { sigma0, mu }),
+            Self::HerschelBulkley { sigma0, k, n } => {
+                Prepared::HerschelBulkley(HerschelBulkley::new(sigma0, k, n))
+            }
+            Self::PowerLaw { k, n } => Prepared::PowerLaw(PowerLaw::new(k, n)),
+            Self::Papanastasiou { sigma0, k, n, m } => {
+                Prepared::Papanastasiou(Papanastasiou { sigma0, k, n, m })
+            }
+        }
+    }
+
     /// Yield stress below which the fluid is rigid; zero for laws that flow at any stress.
     #[must_use]
     pub const fn yield_stress(&self) -> f64 {
@@ -107,12 +187,6 @@ impl Law {
             Self::Bingham { sigma0, .. } | Self::HerschelBulkley { sigma0, .. } => sigma0,
             Self::Newtonian { .. } | Self::PowerLaw { .. } | Self::Papanastasiou { .. } => 0.0,
         }
-    }
-
-    /// The law with what its local solve needs (a table, for the laws with a power), made once per run.
-    #[must_use]
-    pub fn prepare(&self) -> Prepared {
-        Prepared::new(self)
     }
 
     /// τ = ½ + 3μ of the law that has the same one everywhere \[L6\].
@@ -139,5 +213,56 @@ impl Law {
             Self::PowerLaw { k, n } => herschel_bulkley::power_stress(k, n, gamma_dot) / gamma_dot,
             Self::Papanastasiou { sigma0, k, n, m } => Papanastasiou { sigma0, k, n, m }.viscosity(gamma_dot),
         }
+    }
+}
+
+/// A [`Law`] with what its local solve needs: any law, chosen per call, for flows of several fluids and for laws
+/// chosen at run time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Prepared {
+    /// σ = μ γ̇.
+    Newtonian(Newtonian),
+    /// σ = σ0 + μ γ̇.
+    Bingham(Bingham),
+    /// σ = σ0 + K γ̇ⁿ.
+    HerschelBulkley(HerschelBulkley),
+    /// σ = K γ̇ⁿ.
+    PowerLaw(PowerLaw),
+    /// σ = σ0 (1 − exp(−m γ̇)) + K γ̇ⁿ.
+    Papanastasiou(Papanastasiou),
+}
+
+macro_rules! for_each_law {
+    ($law:expr, $name:ident => $body:expr) => {
+        match $law {
+            Prepared::Newtonian($name) => $body,
+            Prepared::Bingham($name) => $body,
+            Prepared::HerschelBulkley($name) => $body,
+            Prepared::PowerLaw($name) => $body,
+            Prepared::Papanastasiou($name) => $body,
+        }
+    };
+}
+
+impl Rheology for Prepared {
+    #[inline(always)]
+    fn constant_tau(&self) -> Option<f64> {
+        for_each_law!(self, law => law.constant_tau())
+    }
+    #[inline(always)]
+    fn stress<L: Lane>(&self, gamma_dot: L) -> L {
+        for_each_law!(self, law => law.stress(gamma_dot))
+    }
+    #[inline(always)]
+    fn shear_rate<L: Lane>(&self, rho: L, q: L) -> L {
+        for_each_law!(self, law => law.shear_rate(rho, q))
+    }
+    #[inline(always)]
+    fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
+        for_each_law!(self, law => law.tangent_viscosity(gamma_dot))
+    }
+    #[inline(always)]
+    fn viscosity<L: Lane>(&self, gamma_dot: L) -> L {
+        for_each_law!(self, law => law.viscosity(gamma_dot))
     }
 }

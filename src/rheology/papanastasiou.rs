@@ -1,6 +1,7 @@
 //! σ = σ0 (1 − exp(−m γ̇)) + K γ̇ⁿ.
 
 use super::Rheology;
+use super::curve::{FlowCurve, PowerCurve};
 use crate::lane::{Lane, OfTwo};
 
 /// Herschel-Bulkley fluid regularised after Papanastasiou: no yield surface, a steep viscous start.
@@ -23,6 +24,11 @@ const MAX_ROUNDS: usize = 80;
 const LAST_STEP: f64 = 1e-8;
 
 impl Papanastasiou {
+    /// The law with a yield stress that it stands in for.
+    fn sharp(&self) -> PowerCurve {
+        PowerCurve { sigma0: self.sigma0, k: self.k, n: self.n }
+    }
+
     /// Stress and its slope d/d(ln γ̇), both including the term (ρ/6) γ̇, at x = ln γ̇.
     #[inline(always)]
     fn total<L: Lane>(&self, a: L, x: L) -> (L, L) {
@@ -94,5 +100,47 @@ impl Rheology for Papanastasiou {
     fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
         let plastic = L::splat(self.sigma0 * self.m) * (-(L::splat(self.m) * gamma_dot)).exp();
         plastic + L::splat(self.n * self.k) * (L::splat(self.n - 1.0) * gamma_dot.ln()).exp()
+    }
+}
+
+/// Estimates take it for the law with a yield stress that it stands in for, but for its viscosities.
+impl FlowCurve for Papanastasiou {
+    fn plastic_stress(&self) -> f64 {
+        self.sigma0
+    }
+
+    fn viscous_stress(&self, gamma_dot: f64) -> f64 {
+        self.sharp().viscous_stress(gamma_dot)
+    }
+
+    /// σ0 m + K γ̇ⁿ⁻¹ at γ̇ = 0.
+    fn viscosity_at_rest(&self) -> f64 {
+        if self.n >= 1.0 { self.sigma0 * self.m + self.plastic_viscosity(0.0) } else { f64::INFINITY }
+    }
+
+    fn has_plug(&self) -> bool {
+        false
+    }
+
+    fn constant_plastic_viscosity(&self) -> Option<f64> {
+        self.sharp().constant_plastic_viscosity()
+    }
+
+    fn plastic_viscosity(&self, gamma_dot: f64) -> f64 {
+        self.sharp().plastic_viscosity(gamma_dot)
+    }
+
+    /// σ0 (1 − exp(−m γ̇))/γ̇ + K γ̇ⁿ⁻¹.
+    fn apparent_viscosity(&self, gamma_dot: f64) -> f64 {
+        let yielded = -self.sigma0 * libm::expm1(-self.m * gamma_dot);
+        yielded / gamma_dot + self.plastic_viscosity(gamma_dot)
+    }
+
+    fn shear_rate_at(&self, sigma: f64) -> f64 {
+        self.sharp().shear_rate_at(sigma)
+    }
+
+    fn channel_velocity(&self, force: f64, half_gap: f64) -> f64 {
+        self.sharp().channel_velocity(force, half_gap)
     }
 }

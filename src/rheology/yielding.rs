@@ -6,7 +6,17 @@ pub enum YieldTreatment {
     /// \[Y1\]–\[Y3\]: solved exactly in each cell, no viscosity cap.
     Exact,
     /// \[Y3\] with the resulting τ clamped: the trilinear law, implicit.
-    ImplicitClamped { tau_min: f64, tau_max: f64 },
+    ImplicitClamped {
+        /// Least τ.
+        tau_min: f64,
+        /// Largest τ.
+        tau_max: f64,
+    },
     /// \[Y4\]: the papers' scheme; γ̇ from the previous step's τ, then clamped (one more field: τ).
-    LaggedClamped { tau_min: f64, tau_max: f64 },
+    LaggedClamped {
+        /// Least τ.
+        tau_min: f64,
+        /// Largest τ.
+        tau_max: f64,
+    },
 }

@@ -1,4 +1,4 @@
-//! Grains in a fluid: how the two act on each other, and the same scene seen by the grains alone.
+//! Grains in a fluid: how the two act on each other.
 
 use std::fmt;
 
@@ -6,9 +6,6 @@ use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
-
-use super::dry::{DryDomain, DryScene, GrainOutput, GrainSolid, GrainStop};
-use super::{Boundary, Scene};
 
 /// How grains and fluid act on each other; only together with `fluid`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,7 +48,7 @@ pub enum GrainRefillChoice {
     /// Equilibrium at the velocity of the grain's surface, with the mean stress of the fluid neighbours.
     #[default]
     WithStress,
-    /// The same without stress.
+    /// Equilibrium at the velocity of the grain's surface, without stress.
     Equilibrium,
     /// Equilibrium at the mean velocity of the fluid neighbours.
     Neighbours,
@@ -119,75 +116,5 @@ impl<'de> Deserialize<'de> for LubricationChoice {
             }
         }
         deserializer.deserialize_any(Choice)
-    }
-}
-
-impl Scene {
-    /// The scene as its grains see it; `None` without grains.
-    #[must_use]
-    pub fn as_dry(&self) -> Option<DryScene> {
-        let mut grains = self.grains.clone()?;
-        grains.coupling = None;
-        let solid = |solid: &super::Solid| GrainSolid {
-            name: solid.name.clone(),
-            shape: Some(solid.shape.clone()),
-            mesh: None,
-            invert: solid.invert,
-            material: solid.material.clone(),
-            velocity_m_per_s: solid.velocity_m_per_s,
-            spin_rad_per_s: solid.spin_rad_per_s,
-            centre_m: solid.centre_m,
-        };
-        Some(DryScene {
-            schema: None,
-            title: self.title.clone(),
-            description: None,
-            domain: DryDomain {
-                size_m: self.domain.size_m,
-                boundaries: self.domain.boundaries.clone(),
-                spacing_m: None,
-            },
-            gravity: self.gravity,
-            grains,
-            solids: self.solids.iter().map(solid).collect(),
-            stop: GrainStop { end_time_s: self.stop.end_time_s, arrested: None },
-            output: GrainOutput {
-                grains: self.output.grains,
-                series: self.output.series,
-                probes: self.output.grain_probes.clone(),
-            },
-            file: self.file.clone(),
-            folder: self.folder.clone(),
-        })
-    }
-
-    /// The rules of the coupling, defaults if none are given.
-    #[must_use]
-    pub fn coupling(&self) -> Coupling {
-        self.grains.as_ref().and_then(|grains| grains.coupling).unwrap_or_default()
-    }
-
-    /// Axes along which a uniform pressure gradient carries the weight.
-    #[must_use]
-    pub fn balanced_axes(&self) -> [bool; 3] {
-        let (Some(gravity), Some(_), None) = (self.gravity, &self.grains, &self.fluid.initial) else {
-            return [false; 3];
-        };
-        if !self.coupling().balanced.unwrap_or(gravity.direction.is_some()) {
-            return [false; 3];
-        }
-        let pull = crate::scene::force::gravity_vector(&gravity);
-        let faces = self.domain.boundaries.by_axis();
-        std::array::from_fn(|a| faces[a][0] == Boundary::Periodic && pull[a] != 0.0)
-    }
-
-    /// Axes along which the pressure of the fluid at rest is left out of the computed one, and its weight with it:
-    /// those with walls, in a box without air that holds grains.
-    #[must_use]
-    pub fn weightless_axes(&self) -> [bool; 3] {
-        if self.grains.is_none() || self.fluid.initial.is_some() {
-            return [false; 3];
-        }
-        self.domain.boundaries.by_axis().map(|faces| faces[0] != Boundary::Periodic)
     }
 }

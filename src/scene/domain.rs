@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::geometry::Axis;
+
 /// The box that is filled with cells.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -47,6 +49,28 @@ impl Boundaries {
     pub fn by_axis(&self) -> [[Boundary; 2]; 3] {
         [[self.x_min, self.x_max], [self.y_min, self.y_max], [self.z_min, self.z_max]]
     }
+
+    /// One face.
+    #[must_use]
+    pub const fn at(&mut self, axis: Axis, end: End) -> &mut Boundary {
+        match (axis, end) {
+            (Axis::X, End::Min) => &mut self.x_min,
+            (Axis::X, End::Max) => &mut self.x_max,
+            (Axis::Y, End::Min) => &mut self.y_min,
+            (Axis::Y, End::Max) => &mut self.y_max,
+            (Axis::Z, End::Min) => &mut self.z_min,
+            (Axis::Z, End::Max) => &mut self.z_max,
+        }
+    }
+}
+
+/// An end of an axis of the box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// At coordinate 0.
+    Min,
+    /// At the size of the box.
+    Max,
 }
 
 /// Key names of the faces, `[axis][low, high]`.

@@ -2,85 +2,94 @@
 
 use std::fmt;
 
-/// A problem and where it is: file (without folder) and JSON path.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Located<P> {
-    /// File name.
-    pub file: String,
-    /// JSON path such as `fluid.rheology.bingham.yield_stress_pa`; empty for the file as a whole.
-    pub path: String,
-    /// What is wrong; boxed, so that results stay small.
-    pub problem: Box<P>,
-}
-
-impl<P> Located<P> {
-    /// A problem at a place.
-    pub fn new(file: &str, path: impl Into<String>, problem: P) -> Self {
-        Self { file: file.to_owned(), path: path.into(), problem: Box::new(problem) }
-    }
-}
-
-impl<P: fmt::Display> fmt::Display for Located<P> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.path.is_empty() {
-            write!(f, "{}: {}", self.file, self.problem)
-        } else {
-            write!(f, "{}: `{}`: {}", self.file, self.path, self.problem)
-        }
-    }
-}
-
-impl<P: std::error::Error> std::error::Error for Located<P> {}
+pub use super::located::Located;
+use super::words::{
+    choose, did_you_mean, found_keys, list, list_or, list_static, range, rename_or_add, rename_or_define,
+    rename_or_remove, right_type, with_space,
+};
 
 /// A problem found while reading or checking a scene.
 pub type SceneError = Located<SceneProblem>;
 
 /// What is wrong. Every message says what was found, what is allowed and why, and a way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[allow(missing_docs, reason = "the message above each variant says what its fields are")]
 pub enum SceneProblem {
     /// The file could not be read.
-    #[error("cannot be read: {kind}\n  way out: check the name and that it is a readable text file")]
+    #[error(
+        "cannot be read: {kind}\n  \
+         way out: check the name and that it is a readable text file"
+    )]
     Unreadable { kind: std::io::ErrorKind },
     /// Not JSON.
     #[error(
-        "line {line}, column {column}: not JSON: {detail}\n  way out: mend the text there; JSON has no comments and no comma after a last entry"
+        "line {line}, column {column}: not JSON: {detail}\n  \
+         way out: mend the text there; JSON has no comments and no comma after a last entry"
     )]
     Syntax { line: usize, column: usize, detail: String },
     /// NaN or Infinity.
     #[error(
-        "line {line}, column {column}: found {token}\n  allowed: finite decimal numbers; JSON has no {token}\n  way out: write a number, or leave out an optional key"
+        "line {line}, column {column}: found {token}\n  \
+         allowed: finite decimal numbers; JSON has no {token}\n  \
+         way out: write a number, or leave out an optional key"
     )]
     NotANumber { line: usize, column: usize, token: &'static str },
     /// Beyond f64.
     #[error(
-        "line {line}, column {column}: a number beyond the range of 64-bit floating point\n  allowed: magnitudes up to 1.7e308\n  way out: check the exponent"
+        "line {line}, column {column}: a number beyond the range of 64-bit floating point\n  \
+         allowed: magnitudes up to 1.7e308\n  \
+         way out: check the exponent"
     )]
     NumberTooLarge { line: usize, column: usize },
     /// Unknown key.
-    #[error("unknown key `{key}`{}\n  allowed here: {}\n  way out: {}", did_you_mean(.nearest.as_ref()), list(.allowed), rename_or_remove(.nearest.as_ref()))]
+    #[error(
+        "unknown key `{key}`{}\n  \
+         allowed here: {}\n  \
+         way out: {}", did_you_mean(.nearest.as_ref()), list(.allowed), rename_or_remove(.nearest.as_ref()))]
     UnknownKey { key: String, nearest: Option<String>, allowed: Vec<String> },
     /// Unknown choice.
-    #[error("unknown choice `{found}`{}\n  allowed here: {}\n  way out: {}", did_you_mean(.nearest.as_ref()), list(.allowed), choose(.nearest.as_ref(), .allowed))]
+    #[error(
+        "unknown choice `{found}`{}\n  \
+         allowed here: {}\n  \
+         way out: {}", did_you_mean(.nearest.as_ref()), list(.allowed), choose(.nearest.as_ref(), .allowed))]
     UnknownChoice { found: String, nearest: Option<String>, allowed: Vec<String> },
     /// Missing key.
     #[error(
-        "key `{key}` is missing\n  allowed: scenes that have it; there is no default\n  way out: add `\"{key}\": …` here"
+        "key `{key}` is missing\n  \
+         allowed: scenes that have it; there is no default\n  \
+         way out: add `\"{key}\": …` here"
     )]
     MissingKey { key: String },
     /// Key given twice.
-    #[error("key `{key}` is given twice\n  allowed: each key once\n  way out: remove one of the two")]
+    #[error(
+        "key `{key}` is given twice\n  \
+         allowed: each key once\n  \
+         way out: remove one of the two"
+    )]
     DuplicateKey { key: String },
     /// Wrong JSON type.
-    #[error("found {found}\n  allowed: {expected}\n  way out: {}", if .found.starts_with("string") { "write numbers without quotation marks; choices are written as in `lahar schema`" } else { "see `lahar schema` for what belongs here" })]
+    #[error(
+        "found {found}\n  \
+         allowed: {expected}\n  \
+         way out: {}", right_type(.found))]
     WrongType { found: String, expected: String },
     /// A quantity that must be > 0.
-    #[error("found {found}{}\n  allowed: > 0, {because}\n  way out: {way_out}", with_space(.unit))]
+    #[error(
+        "found {found}{}\n  \
+         allowed: > 0, {because}\n  \
+         way out: {way_out}", with_space(.unit))]
     NotPositive { found: f64, unit: &'static str, because: &'static str, way_out: &'static str },
     /// A quantity that must be ≥ 0.
-    #[error("found {found}{}\n  allowed: ≥ 0, {because}\n  way out: {way_out}", with_space(.unit))]
+    #[error(
+        "found {found}{}\n  \
+         allowed: ≥ 0, {because}\n  \
+         way out: {way_out}", with_space(.unit))]
     Negative { found: f64, unit: &'static str, because: &'static str, way_out: &'static str },
     /// A quantity with a range.
-    #[error("found {found}{}\n  allowed: {}, {because}\n  way out: {way_out}", with_space(.unit), range(*.low, *.high))]
+    #[error(
+        "found {found}{}\n  \
+         allowed: {}, {because}\n  \
+         way out: {way_out}", with_space(.unit), range(*.low, *.high))]
     OutOfRange {
         found: f64,
         unit: &'static str,
@@ -91,217 +100,292 @@ pub enum SceneProblem {
     },
     /// Edge length is no multiple of the spacing.
     #[error(
-        "found {size} m, which is {cells} cells of {spacing} m\n  allowed: whole cells; walls lie on cell faces [B1]\n  way out: the nearest edge length is {nearest} m"
+        "found {size} m, which is {cells} cells of {spacing} m\n  \
+         allowed: whole cells; walls lie on cell faces [B1]\n  \
+         way out: the nearest edge length is {nearest} m"
     )]
     NotMultiple { size: f64, spacing: f64, cells: f64, nearest: f64 },
     /// An edge shorter than a cell.
     #[error(
-        "found {size} m, less than one cell of {spacing} m\n  allowed: at least one whole cell\n  way out: an edge of {spacing} m, or a smaller `domain.spacing_m`"
+        "found {size} m, less than one cell of {spacing} m\n  \
+         allowed: at least one whole cell\n  \
+         way out: an edge of {spacing} m, or a smaller `domain.spacing_m`"
     )]
     NoCell { size: f64, spacing: f64 },
     /// More cells than can be indexed.
     #[error(
-        "found {cells:.3e} cells\n  allowed: at most {max}, the largest cell index\n  way out: a coarser `domain.spacing_m`, or one cell along periodic axes on which nothing changes"
+        "found {cells:.3e} cells\n  \
+         allowed: at most {max}, the largest cell index\n  \
+         way out: a coarser `domain.spacing_m`, or one cell along periodic axes on which nothing changes"
     )]
     TooManyCells { cells: f64, max: u64 },
     /// One face periodic, the other not.
     #[error(
-        "axis {axis}: `{periodic}` is periodic and `{other}` is not\n  allowed: both or neither; what leaves through one face enters at the other\n  way out: name a wall or a mirror plane for `{periodic}`"
+        "axis {axis}: `{periodic}` is periodic and `{other}` is not\n  \
+         allowed: both or neither; what leaves through one face enters at the other\n  \
+         way out: name a wall or a mirror plane for `{periodic}`"
     )]
     HalfPeriodic { axis: char, periodic: &'static str, other: &'static str },
     /// A moving wall that pushes fluid.
     #[error(
-        "found {found} m/s normal to the face\n  allowed: 0; a wall that stays in place can only slide in its plane [B1]\n  way out: set component {axis} to 0"
+        "found {found} m/s normal to the face\n  \
+         allowed: 0; a wall that stays in place can only slide in its plane [B1]\n  \
+         way out: set component {axis} to 0"
     )]
     WallNormalVelocity { found: f64, axis: char },
     /// A direction of length zero.
-    #[error("found [0, 0, 0]\n  allowed: any vector but this one; it has no direction\n  way out: {way_out}")]
+    #[error(
+        "found [0, 0, 0]\n  \
+         allowed: any vector but this one; it has no direction\n  \
+         way out: {way_out}"
+    )]
     ZeroVector { way_out: &'static str },
     /// Exactly one of several keys is wanted.
-    #[error("found {}\n  allowed: {rule} of {}: {because}\n  way out: {}", found_keys(.found), list_static(.of), complete(.found, .rule))]
-    KeyCount {
-        found: Vec<&'static str>,
-        of: &'static [&'static str],
-        rule: &'static str,
-        because: &'static str,
-    },
+    #[error(
+        "found {}\n  \
+         allowed: {rule} of {}: {because}\n  \
+         way out: {}", found_keys(.found), list_static(.of), .rule.way_out(.found))]
+    KeyCount { found: Vec<&'static str>, of: &'static [&'static str], rule: KeyRule, because: &'static str },
     /// A key that has no effect here.
     #[error(
-        "`{key}` has no effect here: {because}\n  allowed: only keys that do something\n  way out: remove it"
+        "`{key}` has no effect here: {because}\n  \
+         allowed: only keys that do something\n  \
+         way out: remove it"
     )]
     UnusedKey { key: &'static str, because: &'static str },
     /// Corners in the wrong order.
     #[error(
-        "axis {axis}: found from {low} m to {high} m\n  allowed: the first less than the second, else nothing is inside\n  way out: swap them, or make them different"
+        "axis {axis}: found from {low} m to {high} m\n  \
+         allowed: the first less than the second, else nothing is inside\n  \
+         way out: swap them, or make them different"
     )]
     EmptyInterval { axis: char, low: f64, high: f64 },
     /// Too few corners or no area.
     #[error(
-        "found {corners} corners enclosing {area} m²\n  allowed: at least 3 corners around a positive area\n  way out: add corners that are not on one line"
+        "found {corners} corners enclosing {area} m²\n  \
+         allowed: at least 3 corners around a positive area\n  \
+         way out: add corners that are not on one line"
     )]
     FlatPolygon { corners: usize, area: f64 },
     /// A combination of no shapes.
-    #[error("found no shape\n  allowed: at least one\n  way out: add a shape, or remove the combination")]
+    #[error(
+        "found no shape\n  \
+         allowed: at least one\n  \
+         way out: add a shape, or remove the combination"
+    )]
     NoPart,
     /// Rows of different lengths.
     #[error(
-        "found {rows} rows, the first of {first} heights and another of {other}\n  allowed: at least one row, all of the same length of at least 1\n  way out: complete the rows"
+        "found {rows} rows, the first of {first} heights and another of {other}\n  \
+         allowed: at least one row, all of the same length of at least 1\n  \
+         way out: complete the rows"
     )]
     UnevenRows { rows: usize, first: usize, other: usize },
     /// An initial fluid without any shape.
     #[error(
-        "found neither `fill_level` nor `shapes`\n  allowed: at least one of them; together they are the fluid at time 0\n  way out: add one, or leave out `initial` for fluid everywhere"
+        "found neither `fill_level` nor `shapes`\n  \
+         allowed: at least one of them; together they are the fluid at time 0\n  \
+         way out: add one, or leave out `initial` for fluid everywhere"
     )]
     EmptyInitial,
     /// A level without a direction.
     #[error(
-        "the level has no axis, and there is no gravity to give one\n  allowed: levels with an axis\n  way out: add `\"axis\": \"z\"`, or gravity"
+        "the level has no axis, and there is no gravity to give one\n  \
+         allowed: levels with an axis\n  \
+         way out: add `\"axis\": \"z\"`, or gravity"
     )]
     LevelWithoutAxis,
     /// Only with a free surface.
     #[error(
-        "{what} needs a free surface, but fluid fills the whole box\n  allowed: only with `fluid.initial`\n  way out: say with `fluid.initial` where the fluid is at time 0, or {otherwise}"
+        "{what} needs a free surface, but fluid fills the whole box\n  \
+         allowed: only with `fluid.initial`\n  \
+         way out: say with `fluid.initial` where the fluid is at time 0, or {otherwise}"
     )]
     NeedsSurface { what: &'static str, otherwise: &'static str },
     /// Not with a free surface.
     #[error(
-        "{what} cannot be had together with a free surface\n  allowed: {allowed}\n  way out: leave it out, or leave out `fluid.initial`"
+        "{what} cannot be had together with a free surface\n  \
+         allowed: {allowed}\n  \
+         way out: leave it out, or leave out `fluid.initial`"
     )]
     NotWithSurface { what: &'static str, allowed: &'static str },
     /// A section along the normal of the bed.
     #[error(
-        "found {axis}, the axis normal to the bed\n  allowed: one of the two others; depth is measured along the normal\n  way out: the axis along which the fluid flows"
+        "found {axis}, the axis normal to the bed\n  \
+         allowed: one of the two others; depth is measured along the normal\n  \
+         way out: the axis along which the fluid flows"
     )]
     AcrossBed { axis: char },
     /// A name of no solid.
-    #[error("no solid is named `{name}`{}\n  allowed: {}\n  way out: {}", did_you_mean(.nearest.as_ref()), if .solids.is_empty() { "names of `solids`; there is none".to_owned() } else { list(.solids) }, rename_or_add(.nearest.as_ref()))]
+    #[error(
+        "no solid is named `{name}`{}\n  \
+         allowed: {}\n  \
+         way out: {}",
+        did_you_mean(.nearest.as_ref()),
+        list_or(.solids, "names of `solids`; there is none"),
+        rename_or_add(.nearest.as_ref()))]
     UnknownSolid { name: String, nearest: Option<String>, solids: Vec<String> },
     /// Only with fluid.
     #[error(
-        "this measure needs a fluid around the grains\n  allowed: only in scenes with `fluid`\n  way out: remove the probe"
+        "this measure needs a fluid around the grains\n  \
+         allowed: only in scenes with `fluid`\n  \
+         way out: remove the probe"
     )]
     NeedsFluid,
+    /// Only with grains.
+    #[error(
+        "this measure needs grains\n  allowed: only in scenes with `grains`\n  way out: remove the probe"
+    )]
+    NeedsGrains,
     /// Not together with grains in the fluid.
     #[error(
-        "{what} cannot be had together with grains\n  allowed: {allowed}\n  way out: leave one of them out"
+        "{what} cannot be had together with grains\n  \
+         allowed: {allowed}\n  \
+         way out: leave one of them out"
     )]
     NotWithGrains { what: &'static str, allowed: &'static str },
     /// A name of nothing.
-    #[error("no {kind} is named `{name}`{}\n  allowed: {}\n  way out: {}", did_you_mean(.nearest.as_ref()), if .names.is_empty() { format!("names of a {kind}; there is none") } else { list(.names) }, rename_or_define(.nearest.as_ref(), .kind))]
+    #[error(
+        "no {kind} is named `{name}`{}\n  \
+         allowed: {}\n  \
+         way out: {}",
+        did_you_mean(.nearest.as_ref()),
+        list_or(.names, &format!("names of a {kind}; there is none")),
+        rename_or_define(.nearest.as_ref(), .kind))]
     UnknownName { kind: &'static str, name: String, nearest: Option<String>, names: Vec<String> },
     /// A list without entries.
-    #[error("found an empty list\n  allowed: at least one entry\n  way out: add {what}")]
+    #[error(
+        "found an empty list\n  \
+         allowed: at least one entry\n  \
+         way out: add {what}"
+    )]
     EmptyList { what: &'static str },
     /// A shape that this cannot be done with.
-    #[error("this shape cannot be {what}\n  allowed: {allowed}\n  way out: {way_out}")]
+    #[error(
+        "this shape cannot be {what}\n  \
+         allowed: {allowed}\n  \
+         way out: {way_out}"
+    )]
     ShapeNotForGrains { what: &'static str, allowed: &'static str, way_out: &'static str },
     /// A rotation by nothing.
     #[error(
-        "found [0, 0, 0, 0]\n  allowed: any quaternion (w, x, y, z) but this one; it turns nowhere\n  way out: [1, 0, 0, 0] for the clump as drawn"
+        "found [0, 0, 0, 0]\n  \
+         allowed: any quaternion (w, x, y, z) but this one; it turns nowhere\n  \
+         way out: [1, 0, 0, 0] for the clump as drawn"
     )]
     ZeroQuaternion,
     /// A sieve curve that does not rise from 0 to 1.
     #[error(
-        "this is no sieve curve\n  allowed: at least two [diameter in m, share of the mass that passes], diameters above 0 and rising, shares rising from 0 to 1\n  way out: add the diameter that nothing passes at the start, and the one that all passes at the end"
+        "this is no sieve curve\n  \
+         allowed: at least two [diameter in m, share of the mass that passes], diameters above 0 and rising, shares \
+         rising from 0 to 1\n  \
+         way out: add the diameter that nothing passes at the start, and the one that all passes at the end"
     )]
     BadSieveCurve,
     /// Outside the box.
     #[error(
-        "axis {axis}: found {low} m to {high} m\n  allowed: something between 0 m and {size} m, the box\n  way out: move it into the box, or remove it"
+        "axis {axis}: found {low} m to {high} m\n  \
+         allowed: something between 0 m and {size} m, the box\n  \
+         way out: move it into the box, or remove it"
     )]
     OutsideDomain { axis: char, low: f64, high: f64, size: f64 },
     /// A name used twice.
-    #[error("name `{name}` is used twice\n  allowed: unique names\n  way out: rename one")]
+    #[error(
+        "name `{name}` is used twice\n  \
+         allowed: unique names\n  \
+         way out: rename one"
+    )]
     DuplicateName { name: String },
     /// A name that cannot be a file name or column.
     #[error(
-        "found name `{name}`\n  allowed: letters, digits, `_` and `-`, at least one; it becomes a column or a file name\n  way out: rename it"
+        "found name `{name}`\n  \
+         allowed: letters, digits, `_` and `-`, at least one; it becomes a column or a file name\n  \
+         way out: rename it"
     )]
     BadName { name: String },
     /// A wave across a wall.
     #[error(
-        "axis {axis}: found {count} periods between walls\n  allowed: 0 along an axis that is not periodic; the wave would not match the wall\n  way out: make axis {axis} periodic, or set its wave count to 0"
+        "axis {axis}: found {count} periods between walls\n  \
+         allowed: 0 along an axis that is not periodic; the wave would not match the wall\n  \
+         way out: make axis {axis} periodic, or set its wave count to 0"
     )]
     WaveAcrossWall { axis: char, count: i64 },
     /// A wave without a wave vector.
     #[error(
-        "found wave counts that are all 0\n  allowed: at least one period in the box\n  way out: set one of them to 1, or use `uniform`"
+        "found wave counts that are all 0\n  \
+         allowed: at least one period in the box\n  \
+         way out: set one of them to 1, or use `uniform`"
     )]
     NoWave,
     /// Longitudinal wave.
     #[error(
-        "amplitude · wave vector = {found} (relative)\n  allowed: 0; the flow must have no divergence\n  way out: choose an amplitude normal to the wave vector"
+        "amplitude · wave vector = {found} (relative)\n  \
+         allowed: 0; the flow must have no divergence\n  \
+         way out: choose an amplitude normal to the wave vector"
     )]
     NotTransverse { found: f64 },
     /// Different wave lengths.
-    #[error("found wave lengths {}, {} and {} m\n  allowed: three equal ones; only then does the starting pressure balance this flow\n  way out: choose wave counts in proportion to `domain.size_m`", .lengths[0], .lengths[1], .lengths[2])]
+    #[error(
+        "found wave lengths {}, {} and {} m\n  \
+         allowed: three equal ones; only then does the starting pressure balance this flow\n  \
+         way out: choose wave counts in proportion to `domain.size_m`", .lengths[0], .lengths[1], .lengths[2])]
     UnequalWaves { lengths: [f64; 3] },
     /// Limits in the wrong order.
-    #[error("found {low} to {high}{}\n  allowed: the least below the largest\n  way out: swap them", with_space(.unit))]
+    #[error(
+        "found {low} to {high}{}\n  \
+         allowed: the least below the largest\n  \
+         way out: swap them", with_space(.unit))]
     LimitsSwapped { low: f64, high: f64, unit: &'static str },
     /// More entries than a byte can number.
     #[error(
-        "found {found} entries\n  allowed: at most {max}; cells store the number in one byte\n  way out: join shapes"
+        "found {found} entries\n  \
+         allowed: at most {max}; cells store the number in one byte\n  \
+         way out: join shapes"
     )]
     TooMany { found: usize, max: usize },
     /// Single precision with what only the plain backend has.
     #[error(
-        "single precision is only in the fast backend, and {what} is only in the plain one\n  allowed: `double` together with it\n  way out: leave one of the two out"
+        "single precision is only in the fast backend, and {what} is only in the plain one\n  \
+         allowed: `double` together with it\n  \
+         way out: leave one of the two out"
     )]
     OnlyDouble { what: &'static str },
     /// A time beyond the end.
     #[error(
-        "found {found} s\n  allowed: at most the end time, {end} s\n  way out: a shorter interval, or a later `stop.end_time_s`"
+        "found {found} s\n  \
+         allowed: at most the end time, {end} s\n  \
+         way out: a shorter interval, or a later `stop.end_time_s`"
     )]
     BeyondEnd { found: f64, end: f64 },
 }
 
-fn range(low: f64, high: f64) -> String {
-    if high == f64::INFINITY { format!("at least {low}") } else { format!("{low} to {high}") }
+/// How many of several keys a scene gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeyRule {
+    /// One of them, or none.
+    AtMostOne,
+    /// One of them.
+    ExactlyOne,
+    /// The least and the largest of one kind.
+    OnePair,
 }
 
-fn with_space(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
-}
-
-fn did_you_mean(nearest: Option<&String>) -> String {
-    nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
-}
-
-fn rename_or_remove(nearest: Option<&String>) -> String {
-    nearest.map_or_else(|| "remove it".to_owned(), |name| format!("rename it to `{name}`"))
-}
-
-fn rename_or_add(nearest: Option<&String>) -> String {
-    nearest.map_or_else(|| "name one of `solids`".to_owned(), |name| format!("write `{name}`"))
-}
-
-fn rename_or_define(nearest: Option<&String>, kind: &str) -> String {
-    nearest.map_or_else(|| format!("name a {kind} of the scene, or add it"), |name| format!("write `{name}`"))
-}
-
-fn choose(nearest: Option<&String>, allowed: &[String]) -> String {
-    nearest.or(allowed.first()).map_or_else(String::new, |name| format!("write `{name}`"))
-}
-
-fn list(names: &[String]) -> String {
-    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-}
-
-fn list_static(names: &[&str]) -> String {
-    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-}
-
-fn complete(found: &[&str], rule: &str) -> &'static str {
-    if rule.contains("pair") {
-        "give the least and the largest of one kind, and nothing else"
-    } else if found.is_empty() {
-        "add one of them"
-    } else {
-        "keep one of them"
+impl KeyRule {
+    fn way_out(self, found: &[&str]) -> &'static str {
+        match self {
+            Self::OnePair => "give the least and the largest of one kind, and nothing else",
+            Self::AtMostOne | Self::ExactlyOne if found.is_empty() => "add one of them",
+            Self::AtMostOne | Self::ExactlyOne => "keep one of them",
+        }
     }
 }
 
-fn found_keys(names: &[&str]) -> String {
-    if names.is_empty() { "none".to_owned() } else { list_static(names) }
+impl fmt::Display for KeyRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::AtMostOne => "at most one",
+            Self::ExactlyOne => "exactly one",
+            Self::OnePair => "one min-max pair",
+        })
+    }
 }

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Rheology;
 use crate::geometry::{Axis, Shape};
 
 /// The fluid that fills the box (except for `layers` and `solids`).
@@ -48,7 +49,7 @@ pub enum InitialPressure {
     /// heavier than what was drawn, by half of 3fHΔt²/(ρΔx²).
     #[default]
     Hydrostatic,
-    /// The same, below a surface that is lowered, column by column, until the mass is what was drawn. For fluid
+    /// That of the fluid at rest below a surface that is lowered, column by column, until the mass is what was drawn. For fluid
     /// that flows out of its reservoir: the thin flow it becomes then has the right volume, whatever the time step.
     Settled,
     /// That of the air: for fluid that falls freely from the start.
@@ -75,51 +76,6 @@ pub struct FluidShape {
     pub name: Option<String>,
     /// Where it is.
     pub shape: Shape,
-}
-
-/// Shear stress magnitude σ as a function of the shear rate γ̇.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Rheology {
-    /// σ = μ γ̇.
-    Newtonian {
-        /// Dynamic viscosity μ, Pa s.
-        viscosity_pa_s: f64,
-    },
-    /// σ = σ0 + μ γ̇, rigid below σ0.
-    Bingham {
-        /// Yield stress σ0, Pa.
-        yield_stress_pa: f64,
-        /// Plastic viscosity μ, Pa s.
-        plastic_viscosity_pa_s: f64,
-    },
-    /// σ = σ0 + K γ̇ⁿ, rigid below σ0.
-    HerschelBulkley {
-        /// Yield stress σ0, Pa.
-        yield_stress_pa: f64,
-        /// Consistency K, Pa sⁿ.
-        consistency_pa_s_n: f64,
-        /// Flow index n.
-        flow_index: f64,
-    },
-    /// σ = K γ̇ⁿ.
-    PowerLaw {
-        /// Consistency K, Pa sⁿ.
-        consistency_pa_s_n: f64,
-        /// Flow index n.
-        flow_index: f64,
-    },
-    /// σ = σ0 (1 − exp(−m γ̇)) + K γ̇ⁿ: a smooth stand-in for a yield stress.
-    Papanastasiou {
-        /// Yield stress σ0, Pa.
-        yield_stress_pa: f64,
-        /// Consistency K, Pa sⁿ.
-        consistency_pa_s_n: f64,
-        /// Flow index n.
-        flow_index: f64,
-        /// Growth time m, s.
-        growth_s: f64,
-    },
 }
 
 /// Force per volume, the same in all cells.
@@ -259,4 +215,59 @@ pub struct Solid {
     /// Material that grains touch, one of `grains.materials`; the first one when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+}
+
+impl Fluid {
+    /// A fluid at rest that fills the box.
+    ///
+    /// # Arguments
+    /// `density_kg_per_m3`, kg/m³; `rheology`: its law.
+    #[must_use]
+    pub fn new(density_kg_per_m3: f64, rheology: Rheology) -> Self {
+        let initial_velocity = InitialVelocity::AtRest;
+        Self { density_kg_per_m3, rheology, body_force: None, initial_velocity, initial: None }
+    }
+}
+
+impl Gravity {
+    /// Against z.
+    ///
+    /// # Arguments
+    /// `magnitude_m_per_s2`, m/s² ≥ 0.
+    #[must_use]
+    pub const fn down(magnitude_m_per_s2: f64) -> Self {
+        let direction = Some([0.0, 0.0, -1.0]);
+        Self { magnitude_m_per_s2, direction, slope_deg: None, bed_normal: None }
+    }
+
+    /// On a bed normal to z that falls towards +x.
+    ///
+    /// # Arguments
+    /// `magnitude_m_per_s2`, m/s² ≥ 0; `slope_deg`: slope of the bed, degrees.
+    #[must_use]
+    pub const fn on_slope(magnitude_m_per_s2: f64, slope_deg: f64) -> Self {
+        Self { magnitude_m_per_s2, direction: None, slope_deg: Some(slope_deg), bed_normal: Some(Axis::Z) }
+    }
+}
+
+impl Solid {
+    /// A solid at rest inside a shape.
+    #[must_use]
+    pub fn new(name: &str, shape: Shape) -> Self {
+        Self {
+            name: name.to_owned(),
+            shape,
+            invert: false,
+            velocity_m_per_s: [0.0; 3],
+            spin_rad_per_s: [0.0; 3],
+            centre_m: None,
+            material: None,
+        }
+    }
+
+    /// A solid at rest everywhere outside a shape: a pipe around a cylinder.
+    #[must_use]
+    pub fn outside(name: &str, shape: Shape) -> Self {
+        Self { invert: true, ..Self::new(name, shape) }
+    }
 }

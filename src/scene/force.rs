@@ -24,24 +24,60 @@ pub fn gravity_vector(gravity: &Gravity) -> [f64; 3] {
     gravity_force(gravity, 1.0)
 }
 
-/// Body force with gravity in it.
-#[must_use]
-pub fn total_force(scene: &Scene) -> BodyForce {
-    force_without_weight(scene, [false; 3])
+/// What acts on the fluid of a scene, N/m³, worked out once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Forces {
+    /// Body force with gravity in it.
+    pub total: BodyForce,
+    /// Body force that the fluid is computed with: without its weight where the pressure of the fluid at rest is left
+    /// out of the computed one ([`Scene::weightless_axes`]).
+    pub computed: BodyForce,
+    /// What of it drives a flow: not the weight that a uniform pressure gradient carries either.
+    pub driving: BodyForce,
+    /// Extremes of the total force ([`extreme_forces`]); the first is the one that levels and slopes follow.
+    pub extremes: [[f64; 3]; 2],
+    /// Extremes of the driving force.
+    pub driving_extremes: [[f64; 3]; 2],
+    /// The axis of the strongest component of the total force, z before y before x; z without a force.
+    pub up: Axis,
+    /// Whether that component points to smaller coordinates; true without a force.
+    pub down_is_low: bool,
 }
 
-/// Body force that the fluid is computed with: without its weight where the pressure of the fluid at rest is left out
-/// of the computed one ([`Scene::weightless_axes`]).
-#[must_use]
-pub fn computed_force(scene: &Scene) -> BodyForce {
-    force_without_weight(scene, scene.weightless_axes())
+impl Forces {
+    /// Of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        let (weightless, balanced) = (scene.weightless_axes(), scene.balanced_axes());
+        let total = force_without_weight(scene, [false; 3]);
+        let driving = force_without_weight(scene, std::array::from_fn(|a| weightless[a] || balanced[a]));
+        let extremes = extreme_forces(&total);
+        let (up, down_is_low) = strongest(&extremes);
+        Self {
+            total,
+            computed: force_without_weight(scene, weightless),
+            driving,
+            extremes,
+            driving_extremes: extreme_forces(&driving),
+            up,
+            down_is_low,
+        }
+    }
+
+    /// The axis along which the total force is strongest; `None` without a force.
+    #[must_use]
+    pub fn up_axis(&self) -> Option<Axis> {
+        self.extremes.iter().flatten().any(|f| *f != 0.0).then_some(self.up)
+    }
 }
 
-/// What of it drives a flow: not the weight that a uniform pressure gradient carries either.
-#[must_use]
-pub fn driving_force(scene: &Scene) -> BodyForce {
-    let (weightless, balanced) = (scene.weightless_axes(), scene.balanced_axes());
-    force_without_weight(scene, std::array::from_fn(|a| weightless[a] || balanced[a]))
+impl Scene {
+    /// The axis along which gravity and body force are strongest (z before y before x), normal to beds and
+    /// levels; `None` without a force.
+    #[must_use]
+    pub fn up_axis(&self) -> Option<Axis> {
+        Forces::of(self).up_axis()
+    }
 }
 
 fn force_without_weight(scene: &Scene, without: [bool; 3]) -> BodyForce {
@@ -82,8 +118,13 @@ pub fn extreme_forces(force: &BodyForce) -> [[f64; 3]; 2] {
 /// without a force.
 #[must_use]
 pub fn up(scene: &Scene) -> (Axis, bool) {
+    let forces = Forces::of(scene);
+    (forces.up, forces.down_is_low)
+}
+
+fn strongest(extremes: &[[f64; 3]; 2]) -> (Axis, bool) {
     let mut strongest = (Axis::Z, -0.0_f64);
-    for force in extreme_forces(&total_force(scene)) {
+    for force in extremes {
         for axis in [Axis::Z, Axis::Y, Axis::X] {
             if force[axis.index()].abs() > strongest.1.abs() {
                 strongest = (axis, force[axis.index()]);

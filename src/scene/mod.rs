@@ -1,35 +1,45 @@
-//! The scene file: SI units, checked, nothing numerical yet.
+//! A scene: SI units, checked, nothing numerical yet; read from a file ([`load`]) or made in Rust
+//! ([`Scene::builder`], [`dry::DryScene::builder`]).
 
+mod build;
 mod check;
+mod checker;
 mod coupled;
 mod domain;
 pub mod dry;
 mod error;
 mod fluid;
 pub mod force;
+mod located;
 mod nearest;
 mod numerics;
+mod operator;
 mod parse;
+pub mod probe;
+mod rheology;
+mod view;
+mod words;
 
 use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::Axis;
-
+pub use build::SceneBuilder;
 pub use coupled::{Coupling, GrainRefillChoice, GrainWallChoice, LubricationChoice, LubricationRules};
-pub use domain::{Boundaries, Boundary, Domain, FACE_KEYS};
-pub use error::{Located, SceneError, SceneProblem};
+pub use domain::{Boundaries, Boundary, Domain, End, FACE_KEYS};
+pub use error::{KeyRule, Located, SceneError, SceneProblem};
 pub use fluid::{
     BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialPressure, InitialVelocity, Layer,
-    Rheology, Solid,
+    Solid,
 };
 pub use numerics::{
-    Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Measure, Numerics, Operator, Output,
-    PrecisionChoice, Probe, RefillChoice, Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice,
-    YieldChoice,
+    Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Numerics, Output, PrecisionChoice, RefillChoice,
+    Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
+pub use operator::Operator;
+pub use probe::{Measure, Probe, Subject, Target};
+pub use rheology::Rheology;
 
 /// One experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -77,17 +87,13 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The axis along which gravity and body force are strongest (z before y before x), normal to beds and
-    /// levels; `None` without a force.
-    #[must_use]
-    pub fn up_axis(&self) -> Option<Axis> {
-        let forces = force::extreme_forces(&force::total_force(self));
-        let pulls = forces.iter().flatten().any(|f| *f != 0.0);
-        pulls.then(|| force::up(self).0)
+    /// Laws of all its fluids: that of `fluid`, then those of the layers.
+    pub fn rheologies(&self) -> impl Iterator<Item = &Rheology> {
+        std::iter::once(&self.fluid.rheology).chain(self.layers.iter().map(|layer| &layer.rheology))
     }
 }
 
-/// A scene file of either kind.
+/// A scene of any kind.
 #[derive(Clone, Debug, PartialEq, JsonSchema)]
 #[schemars(untagged)]
 pub enum AnyScene {
@@ -97,29 +103,86 @@ pub enum AnyScene {
     Dry(Box<dry::DryScene>),
 }
 
-/// Reads and checks a scene file of either kind: one that has `grains` and no `fluid` is dry.
-///
-/// # Errors
-/// As [`load`].
-pub fn read(path: &Path) -> Result<AnyScene, SceneError> {
-    let (text, file) = text_of(path)?;
-    let folder = path.parent().unwrap_or(Path::new("."));
-    if !parse::is_dry(&text) {
-        return flow_from_json(&text, &file, folder).map(|scene| AnyScene::Flow(Box::new(scene)));
+impl AnyScene {
+    /// Name of the file it came from.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        match self {
+            Self::Flow(scene) => &scene.file,
+            Self::Dry(scene) => &scene.file,
+        }
     }
-    dry_from_json(&text, &file, folder).map(|scene| AnyScene::Dry(Box::new(scene)))
 }
 
-/// Checks a scene without fluid given as text; `folder` is where meshes and tables are looked for.
+/// Reads and checks a scene file of any kind: one that has `grains` and no `fluid` is dry.
+///
+/// # Errors
+/// The file cannot be read, is not JSON, does not have the shape of a scene, or holds values that
+/// make no sense. The message names the file (without its folder) and the JSON path.
+pub fn load(path: &Path) -> Result<AnyScene, SceneError> {
+    let (text, file) = text_of(path)?;
+    from_json(&text, &file, folder_of(path))
+}
+
+/// Reads and checks the file of a scene with fluid.
+///
+/// # Errors
+/// As [`load`]; a scene without `fluid` does not have the shape.
+pub fn load_flow(path: &Path) -> Result<Scene, SceneError> {
+    let (text, file) = text_of(path)?;
+    flow_from_json(&text, &file, folder_of(path))
+}
+
+/// Reads and checks the file of a scene without fluid.
+///
+/// # Errors
+/// As [`load`]; a scene with `fluid` does not have the shape.
+pub fn load_dry(path: &Path) -> Result<dry::DryScene, SceneError> {
+    let (text, file) = text_of(path)?;
+    dry_from_json(&text, &file, folder_of(path))
+}
+
+/// Checks a scene of any kind given as text; `file` is its name in messages, and meshes and tables of grains are looked
+/// for in `folder`.
 ///
 /// # Errors
 /// As [`load`].
+pub fn from_json(text: &str, file: &str, folder: &Path) -> Result<AnyScene, SceneError> {
+    if parse::is_dry(text) {
+        dry_from_json(text, file, folder).map(|scene| AnyScene::Dry(Box::new(scene)))
+    } else {
+        flow_from_json(text, file, folder).map(|scene| AnyScene::Flow(Box::new(scene)))
+    }
+}
+
+/// Checks a scene with fluid given as text; `file` is its name in messages, and tables of grains are looked for in
+/// `folder`.
+///
+/// # Errors
+/// As [`load_flow`].
+pub fn flow_from_json(text: &str, file: &str, folder: &Path) -> Result<Scene, SceneError> {
+    let mut scene: Scene = parse::parse(text, file)?;
+    file.clone_into(&mut scene.file);
+    folder.clone_into(&mut scene.folder);
+    check::check(&scene)?;
+    Ok(scene)
+}
+
+/// Checks a scene without fluid given as text; `file` is its name in messages, and meshes and tables are looked for in
+/// `folder`.
+///
+/// # Errors
+/// As [`load_dry`].
 pub fn dry_from_json(text: &str, file: &str, folder: &Path) -> Result<dry::DryScene, SceneError> {
     let mut scene: dry::DryScene = parse::parse(text, file)?;
     file.clone_into(&mut scene.file);
     folder.clone_into(&mut scene.folder);
     dry::check(&scene)?;
     Ok(scene)
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new("."))
 }
 
 fn text_of(path: &Path) -> Result<(String, String), SceneError> {
@@ -129,36 +192,6 @@ fn text_of(path: &Path) -> Result<(String, String), SceneError> {
         Ok(text) => Ok((text, file)),
         Err(error) => Err(SceneError::new(&file, "", SceneProblem::Unreadable { kind: error.kind() })),
     }
-}
-
-/// Reads and checks a scene file with fluid.
-///
-/// # Errors
-/// The file cannot be read, is not JSON, does not have the shape of a scene, or holds values that
-/// make no sense. The message names the file (without its folder) and the JSON path.
-pub fn load(path: &Path) -> Result<Scene, SceneError> {
-    let (text, file) = text_of(path)?;
-    flow_from_json(&text, &file, path.parent().unwrap_or(Path::new(".")))
-}
-
-/// Checks a scene given as text; `file` is the name used in messages.
-///
-/// # Errors
-/// As [`load`].
-pub fn from_json(text: &str, file: &str) -> Result<Scene, SceneError> {
-    flow_from_json(text, file, Path::new("."))
-}
-
-/// The same; `folder` is where tables of grains are looked for.
-///
-/// # Errors
-/// As [`load`].
-pub fn flow_from_json(text: &str, file: &str, folder: &Path) -> Result<Scene, SceneError> {
-    let mut scene: Scene = parse::parse(text, file)?;
-    file.clone_into(&mut scene.file);
-    folder.clone_into(&mut scene.folder);
-    check::check(&scene)?;
-    Ok(scene)
 }
 
 /// The JSON Schema of a scene, pretty-printed, with a final newline.

@@ -3,8 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::dry::GrainProbe;
-use crate::geometry::Axis;
+use super::{Operator, Probe, Subject};
 
 /// Numerical choices. All optional: without them the run uses the scheme known to be best.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -99,7 +98,7 @@ pub enum RefillChoice {
     /// Equilibrium at the mean density and velocity of its neighbours.
     #[default]
     Equilibrium,
-    /// The same with the mean stress of its neighbours.
+    /// Equilibrium at the mean density and velocity of its neighbours, with their mean stress.
     WithStress,
 }
 
@@ -132,20 +131,6 @@ pub struct Collision {
     /// and `central_moment`, whose odd moments would grow along a surface that moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lowered_below: Option<f64>,
-}
-
-/// The four operators.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Operator {
-    /// One relaxation time.
-    Bgk,
-    /// Two relaxation times.
-    Trt,
-    /// Central moments about the co-moving state.
-    CentralMoment,
-    /// Recursive-regularised.
-    Regularised,
 }
 
 /// How the relaxation time follows from the law.
@@ -245,9 +230,18 @@ pub struct Output {
     /// Files of the grains for ParaView; with the fields when not given. Only with `grains`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grains: Option<Cadence>,
-    /// What the time series holds about the grains. Only with `grains`.
+    /// More of it, where `kinetic_energy`, `max_speed` and `mass` are those of the grains. Only with `grains`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub grain_probes: Vec<GrainProbe>,
+    pub grain_probes: Vec<Probe>,
+}
+
+impl Output {
+    /// All probes of a scene with fluid, in the order of their columns, and what the words that fluid and grains share
+    /// mean in each.
+    pub fn all_probes(&self) -> impl Iterator<Item = (&Probe, Subject)> {
+        let fluid = self.probes.iter().map(|probe| (probe, Subject::Fluid));
+        fluid.chain(self.grain_probes.iter().map(|probe| (probe, Subject::Grains)))
+    }
 }
 
 /// How often; time 0 and the end are always included.
@@ -259,118 +253,4 @@ pub enum Cadence {
     EverySeconds(f64),
     /// So many times, evenly spread over the run.
     Count(u32),
-}
-
-/// A named measurement.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Probe {
-    /// Unique name: column of `series.csv`, or file name of a profile.
-    pub name: String,
-    /// What is measured.
-    pub measure: Measure,
-}
-
-/// What a probe measures. Gas cells never count.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Measure {
-    /// Velocity of the cell that holds a point, m/s.
-    PointVelocity {
-        /// The point, m.
-        at_m: [f64; 3],
-    },
-    /// Velocity, shear rate and yielded fraction averaged over planes normal to an axis, written
-    /// with every set of fields.
-    Profile {
-        /// The axis along which the profile runs.
-        along: Axis,
-    },
-    /// Largest speed, m/s.
-    MaxSpeed,
-    /// Kinetic energy, J.
-    KineticEnergy,
-    /// Mass of the fluid, kg.
-    Mass,
-    /// Fraction of the fluid cells that are unyielded, no unit.
-    PlugFraction,
-    /// Volume per time through a plane, m³/s.
-    FlowRate {
-        /// The axis normal to the plane.
-        normal: Axis,
-        /// Position of the plane on that axis, m: the layer of cells that holds it.
-        at_m: f64,
-    },
-    /// Fraction of the fluid cells that are yielded, no unit: one less `plug_fraction`.
-    YieldedFraction,
-    /// Volume of the fluid, m³, from the fill of the cells.
-    Volume,
-    /// Farthest position along an axis at which the flow is deeper than a threshold, m; depth is the fill
-    /// of a column normal to the bed, and the position is interpolated between columns. The box edge, or
-    /// `from_m`, when no column is deep enough.
-    Front {
-        /// The axis the front moves along, towards larger coordinates.
-        along: Axis,
-        /// Depth that counts as flow, m.
-        threshold_m: f64,
-        /// Columns before this position do not count, m.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        from_m: Option<f64>,
-        /// Only fluid above this height counts, m: the top of an erodible bed.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        above_m: Option<f64>,
-    },
-    /// Bed, depth, surface and mean velocity of the columns of a section along an axis, written with
-    /// every set of fields.
-    SurfaceProfile {
-        /// The axis the section runs along.
-        along: Axis,
-        /// Where the section is on the third axis, m; the middle when not given.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        at_m: Option<f64>,
-        /// Only fluid above this height counts, m.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        above_m: Option<f64>,
-    },
-    /// Depth and surface height of all columns, written with every set of fields as an image of one layer.
-    DepthMap {
-        /// Only fluid above this height counts, m.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        above_m: Option<f64>,
-    },
-    /// Mean velocity of the fluid inside a box, m/s, and the volume of that fluid, m³ (004 Eq 5.4; its
-    /// mean over the whole window is the product of the two over the volume of the window).
-    WindowVelocity {
-        /// Low corner, m.
-        min_m: [f64; 3],
-        /// High corner, m.
-        max_m: [f64; 3],
-    },
-    /// Force on a solid, N, its impulse since time 0, N s, and the wetted area of its faces by axis and
-    /// side, m², by momentum exchange; the pressure of the air counts as 0. With grains this is the part of the
-    /// fluid, and that of contacts follows: its mean over the time since the last row, N, its largest value in that
-    /// time, N, and its impulse since time 0, N s.
-    Force {
-        /// Name of the solid.
-        solid: String,
-    },
-    /// Mass, kg, and what became of it: relative residual of the ledger, outflow and parked excess, kg,
-    /// momentum residual, N s, and the number of cells that changed kind.
-    Ledger,
-}
-
-impl Measure {
-    /// Whether it only exists with a free surface.
-    #[must_use]
-    pub fn needs_surface(&self) -> bool {
-        matches!(
-            self,
-            Self::Volume
-                | Self::Front { .. }
-                | Self::SurfaceProfile { .. }
-                | Self::DepthMap { .. }
-                | Self::Ledger
-                | Self::Force { .. }
-        )
-    }
 }

@@ -1,5 +1,6 @@
 //! JSON text to a scene, and the parser's complaints to [`SceneError`].
 
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
 
@@ -141,4 +142,11 @@ fn split_first(mut words: Vec<String>) -> (String, Vec<String>) {
     }
     let first = words.remove(0);
     (first, words)
+}
+
+/// A file holds finite numbers only, and so does what would be read back from one.
+pub(super) fn finite<S: Serialize + DeserializeOwned>(scene: &S, file: &str) -> Result<(), SceneError> {
+    // A scene holds nothing that JSON cannot; a number that is not finite becomes `null`.
+    let text = serde_json::to_string(scene).unwrap_or_default();
+    parse::<S>(&text, file).map(|_| ())
 }

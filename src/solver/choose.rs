@@ -1,6 +1,7 @@
 //! Which backend runs what.
 
 use super::fast::Fast;
+use super::layout::Layout;
 use super::plain::Plain;
 use super::run::{Backend, Run, StartError};
 use crate::setup::{Precision, Setup};
@@ -13,6 +14,10 @@ pub struct Best;
 impl Backend for Best {
     fn name(&self) -> &'static str {
         "fast"
+    }
+
+    fn layout(&self) -> Layout {
+        Layout::Blocks
     }
 
     fn start(&self, setup: &Setup) -> Result<Box<dyn Run>, StartError> {

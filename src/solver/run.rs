@@ -1,5 +1,6 @@
 //! The two traits that sit outside the hot loop: a [`Backend`] starts a [`Run`].
 
+use super::layout::Layout;
 use crate::coupling::Immersed;
 use crate::fingerprint::Fingerprint;
 use crate::lattice::Q;
@@ -12,6 +13,11 @@ pub use crate::setup::guard::{Runaway, StartError, Stopped};
 pub trait Backend: Sync {
     /// Short name, as used on the command line and in records.
     fn name(&self) -> &'static str;
+
+    /// How it lays cells out, for the prediction of its memory. Backends from elsewhere are taken to hold every cell.
+    fn layout(&self) -> Layout {
+        Layout::EveryCell
+    }
 
     /// Allocates and initialises a run.
     ///

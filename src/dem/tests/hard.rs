@@ -9,7 +9,8 @@ fn guard_stops_deep_overlap() {
     let mut d = Dem::new(&s).unwrap();
     match d.step(10_000) {
         Err(DemError::Overlap { pair, step, time_s, share, limit, .. }) => {
-            assert_eq!(pair, "grains 0 and 1");
+            assert_eq!(pair, Touching::Grains(0, 1));
+            assert_eq!(pair.to_string(), "grains 0 and 1");
             assert!(step > 0 && time_s > 0.0 && share > limit);
         }
         other => panic!("{other:?}"),
@@ -19,7 +20,7 @@ fn guard_stops_deep_overlap() {
     s.grains = vec![Grain::sphere(5e-3, V3::z() * 0.01, 0).moving(V3::z() * -50.0)];
     let stopped = Dem::new(&s).unwrap().step(10_000);
     assert!(
-        matches!(&stopped, Err(DemError::Overlap { pair, .. }) if pair == "grain 0 and wall `floor`"),
+        matches!(&stopped, Err(DemError::Overlap { pair, .. }) if pair.to_string() == "grain 0 and wall `floor`"),
         "{stopped:?}"
     );
 }

@@ -1,41 +1,42 @@
 //! Grains in a fluid: sub-steps, gravity, checks, and what `lahar plan` says about them.
 
+mod bytes;
 mod classes;
 mod numbers;
 mod print;
 mod speed;
+mod sub_steps;
+mod warnings;
 
 use std::sync::Arc;
 
+pub(super) use bytes::added_bytes;
 pub use classes::ClassNumbers;
-pub(super) use numbers::added_bytes;
-pub use numbers::{CoupledNumbers, LubricationNumbers};
+pub(super) use numbers::Given;
+pub use numbers::{CoupledNumbers, LubricationNumbers, SubStepsFrom};
 pub(super) use print::table;
 
+use self::sub_steps::{Stepping, gap_viscosity, sub_steps};
 use super::cells::Cells;
+use super::error::{PlanError, PlanProblem};
+use super::facts::Facts;
 use super::grains::{GrainPlan, Placed, refusal, speed as impact};
-use super::law::apparent_viscosity;
 use super::scale::Scales;
-use super::{PlanError, PlanProblem};
+use super::warning::Warning;
 use crate::coupling::{GrainRefill, GrainWall, Lubrication, Suspension};
 use crate::dem::{Dem, Setup as Grains};
 use crate::scene::dry::DryScene;
 use crate::scene::force::gravity_vector;
 use crate::scene::{GrainRefillChoice, GrainWallChoice, LubricationChoice, Scene};
 use crate::setup::Setup;
-use crate::setup::suspension::lubrication::STIFFEST;
 use crate::units::Units;
 
+/// Where a scene gives the number of sub-steps.
+const SUB_STEPS: &str = "grains.coupling.sub_steps";
 /// Least density of a grain over that of the fluid.
 const LEAST_DENSITY_RATIO: f64 = 0.3;
-/// Below this a density ratio is worth a warning.
-const LOW_DENSITY_RATIO: f64 = 0.5;
 /// Least radius, cells.
 const LEAST_RADIUS: f64 = 1.0;
-/// Gap, cells, down to which the friction of lubrication must be had in full.
-const LUBRICATED_GAP: f64 = 0.1;
-/// Most sub-steps that are chosen.
-const MOST_SUB_STEPS: f64 = 1e6;
 
 /// Grains of a scene with fluid, planned.
 #[derive(Clone, Debug)]
@@ -62,11 +63,12 @@ pub(super) struct Started {
 
 /// Places the grains and raises the scales of the flow to what they will stir up; `None` without grains.
 pub(super) fn start(
-    scene: &Scene,
+    facts: &Facts,
     cells: &Cells,
     scales: &mut Scales,
     available: Option<u64>,
 ) -> Result<Option<Started>, PlanError> {
+    let scene = facts.scene;
     let Some(view) = scene.as_dry() else { return Ok(None) };
     let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
     let placed = GrainPlan::placed(&view, available)?;
@@ -80,7 +82,7 @@ pub(super) fn start(
     let setup = &placed.setup;
     resolution(scene, &placed)?;
     densities(scene, setup)?;
-    let slips = setup.grains.iter().map(|grain| speed::relative(scene, setup, cells, grain));
+    let slips = setup.grains.iter().map(|grain| speed::relative(facts, setup, cells, grain));
     let slip = slips.fold(0.0, f64::max);
     let (pushed, free) = impact::given_speeds(&view, setup);
     let given = pushed.max(free);
@@ -146,27 +148,17 @@ fn densities(scene: &Scene, setup: &Grains) -> Result<(), PlanError> {
     }
 }
 
-/// What was found on the way to the sub-steps.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Stepping {
-    pub sub_steps: u32,
-    pub given: bool,
-    /// Gap below which the friction of lubrication is limited, cells; 0 without lubrication.
-    pub limited_gap: f64,
-    /// Whether lubrication asked for more steps than contacts.
-    pub for_gaps: bool,
-}
-
 impl Started {
     /// Sub-steps, gravity and rules; puts the grains into the set-up.
     pub(super) fn finish(
         self,
-        scene: &Scene,
+        facts: &Facts,
         units: &Units,
         scales: &Scales,
         setup: &mut Setup,
         rule_path: &str,
     ) -> Result<(Coupled, Findings), PlanError> {
+        let scene = facts.scene;
         let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
         let Self { view, placed, slip, given, design } = self;
         let fastest = units.velocity_to_lattice(slip + given);
@@ -181,54 +173,76 @@ impl Started {
             return Err(at(rule_path, problem));
         }
         let mut grains = GrainPlan::finish(&view, placed, design)?;
-        let rules = scene.coupling();
-        let lubrication = lubrication(rules.lubrication);
-        let viscosity = gap_viscosity(scene, scales);
-        let stepping = sub_steps(scene, units, &grains, lubrication, viscosity)
-            .map_err(|problem| at("grains.coupling.sub_steps", problem))?;
-        let dt = units.dt_s / f64::from(stepping.sub_steps);
-        grains.setup.time_step_s = Some(dt);
-        if stepping.given {
-            // The check that needs the step: a contact must be resolved.
-            Dem::new(&grains.setup).map_err(|error| {
-                let mut refused = refusal(&view, &grains.sets, error);
-                if refused.path == "grains.numerics.time_step_s" {
-                    "grains.coupling.sub_steps".clone_into(&mut refused.path);
-                }
-                refused
-            })?;
-        }
-        grains.steps = (view.stop.end_time_s / units.dt_s).round() as u64 * u64::from(stepping.sub_steps);
-        let n = &mut grains.numbers;
-        n.steps_per_contact *= n.time_step_s / dt;
-        n.time_step_s = dt;
-        n.steps = grains.steps;
-        n.sphere_updates = n.spheres as f64 * grains.steps as f64;
-        let mut suspension = Suspension::new(grains.setup.clone(), *units);
-        suspension.sub_steps = stepping.sub_steps;
-        suspension.wall = match rules.wall {
-            GrainWallChoice::HalfWay => GrainWall::HalfWay,
-            GrainWallChoice::CentralLinear => GrainWall::CentralLinear,
-        };
-        suspension.refill = match rules.refill {
-            GrainRefillChoice::WithStress => GrainRefill::WithStress,
-            GrainRefillChoice::Equilibrium => GrainRefill::Equilibrium,
-            GrainRefillChoice::Neighbours => GrainRefill::Neighbours,
-        };
-        suspension.lubrication = lubrication;
-        suspension.balanced = scene.balanced_axes();
-        let weight = scene.gravity.map_or([0.0; 3], |gravity| gravity_vector(&gravity));
-        let weightless = scene.weightless_axes();
-        suspension.pressure_gradient = std::array::from_fn(|a| {
-            let weight = units.rho0_kg_per_m3 * weight[a];
-            // Not −0: it would show in hashes of the set-up.
-            if weightless[a] && weight != 0.0 { -units.force_to_lattice(weight) } else { 0.0 }
-        });
-        let suspension = Arc::new(suspension);
+        let lubrication = lubrication(scene.coupling().lubrication);
+        let stepping = sub_steps(scene, units, &grains, lubrication, gap_viscosity(facts, scales))
+            .map_err(|problem| at(SUB_STEPS, problem))?;
+        take_sub_steps(&mut grains, &view, units, &stepping)?;
+        let suspension = Arc::new(suspension(scene, &grains, units, &stepping, lubrication));
         setup.grains = Some(Arc::clone(&suspension));
         let findings = Findings { slip, fastest, stepping };
         Ok((Coupled { scene: view, grains, suspension }, findings))
     }
+}
+
+/// Gives the grains the time step of the sub-steps, and all that follows from it.
+fn take_sub_steps(
+    grains: &mut GrainPlan,
+    view: &DryScene,
+    units: &Units,
+    stepping: &Stepping,
+) -> Result<(), PlanError> {
+    let dt = units.dt_s / f64::from(stepping.sub_steps);
+    grains.setup.time_step_s = Some(dt);
+    if stepping.given {
+        // The check that needs the step: a contact must be resolved.
+        Dem::new(&grains.setup).map_err(|error| {
+            let mut refused = refusal(view, &grains.sets, error);
+            // Here the step comes from their number.
+            if matches!(*refused.problem, PlanProblem::GrainTimeStep { .. }) {
+                SUB_STEPS.clone_into(&mut refused.path);
+            }
+            refused
+        })?;
+    }
+    grains.steps = (view.stop.end_time_s / units.dt_s).round() as u64 * u64::from(stepping.sub_steps);
+    let n = &mut grains.numbers;
+    n.steps_per_contact *= n.time_step_s / dt;
+    n.time_step_s = dt;
+    n.steps = grains.steps;
+    n.sphere_updates = n.spheres as f64 * grains.steps as f64;
+    Ok(())
+}
+
+/// What the solver is asked to do with the grains.
+fn suspension(
+    scene: &Scene,
+    grains: &GrainPlan,
+    units: &Units,
+    stepping: &Stepping,
+    lubrication: Option<Lubrication>,
+) -> Suspension {
+    let rules = scene.coupling();
+    let mut suspension = Suspension::new(grains.setup.clone(), *units);
+    suspension.sub_steps = stepping.sub_steps;
+    suspension.wall = match rules.wall {
+        GrainWallChoice::HalfWay => GrainWall::HalfWay,
+        GrainWallChoice::CentralLinear => GrainWall::CentralLinear,
+    };
+    suspension.refill = match rules.refill {
+        GrainRefillChoice::WithStress => GrainRefill::WithStress,
+        GrainRefillChoice::Equilibrium => GrainRefill::Equilibrium,
+        GrainRefillChoice::Neighbours => GrainRefill::Neighbours,
+    };
+    suspension.lubrication = lubrication;
+    suspension.balanced = scene.balanced_axes();
+    let weight = scene.gravity.map_or([0.0; 3], |gravity| gravity_vector(&gravity));
+    let weightless = scene.weightless_axes();
+    suspension.pressure_gradient = std::array::from_fn(|a| {
+        let weight = units.rho0_kg_per_m3 * weight[a];
+        // Not −0: it would show in hashes of the set-up.
+        if weightless[a] && weight != 0.0 { -units.force_to_lattice(weight) } else { 0.0 }
+    });
+    suspension
 }
 
 /// What the table of `lahar plan` needs besides the plan.
@@ -251,84 +265,9 @@ fn lubrication(choice: LubricationChoice) -> Option<Lubrication> {
     })
 }
 
-/// Viscosity in a gap that closes, Pa s: at the largest rate expected, without the yield stress.
-fn gap_viscosity(scene: &Scene, scales: &Scales) -> f64 {
-    let law = &scene.fluid.rheology;
-    let rate = scales.shear_rate_max;
-    if rate > 0.0 { apparent_viscosity(law, rate) } else { super::law::parameters(law).k }
-}
-
-/// How many steps of the grains a step of the fluid holds.
-fn sub_steps(
-    scene: &Scene,
-    units: &Units,
-    grains: &GrainPlan,
-    lubrication: Option<Lubrication>,
-    viscosity: f64,
-) -> Result<Stepping, PlanProblem> {
-    let contact_step = grains.numbers.time_step_s;
-    // A share of 1e-9 above a whole number is rounding.
-    let for_contacts = (units.dt_s / contact_step * (1.0 - 1e-9)).ceil().max(1.0);
-    let stiffness = lubrication.map_or(0.0, |_| stiffest_gap(grains, units, viscosity));
-    let cutoff = lubrication.map_or(0.0, |rules| rules.cutoff);
-    // 6πμR²(1/h − 1/h_c) = STIFFEST m n.
-    let steps_for = |gap: f64| (stiffness * (1.0 / gap - 1.0 / cutoff)).max(0.0).ceil();
-    let gap_of = |steps: f64| if stiffness > 0.0 { 1.0 / (steps / stiffness + 1.0 / cutoff) } else { 0.0 };
-    let for_gaps = if stiffness > 0.0 { steps_for(LUBRICATED_GAP.min(cutoff)) } else { 1.0 };
-    let given = scene.coupling().sub_steps;
-    let needed = for_contacts.max(for_gaps);
-    if let Some(steps) = given {
-        let limited_gap = gap_of(f64::from(steps));
-        if limited_gap > LUBRICATED_GAP * (1.0 + 1e-9) && for_gaps > f64::from(steps) {
-            return Err(PlanProblem::LubricationStep {
-                steps,
-                needed: for_gaps,
-                gap: limited_gap,
-                allowed: LUBRICATED_GAP,
-            });
-        }
-        return Ok(Stepping { sub_steps: steps, given: true, limited_gap, for_gaps: false });
-    }
-    if needed.is_nan() || needed > MOST_SUB_STEPS {
-        return Err(PlanProblem::TooManySubSteps { needed, most: MOST_SUB_STEPS });
-    }
-    let sub_steps = needed as u32;
-    let limited_gap = gap_of(needed);
-    Ok(Stepping { sub_steps, given: false, limited_gap, for_gaps: for_gaps > for_contacts })
-}
-
-/// 6πμR²/(0.5 m) in lattice units, of the sphere and grain for which it is largest: against a wall, which is stiffer
-/// than against an equal grain.
-fn stiffest_gap(grains: &GrainPlan, units: &Units, viscosity: f64) -> f64 {
-    let mu = units.viscosity_to_lattice(viscosity);
-    let mass_unit = units.rho0_kg_per_m3 * units.dx_m * units.dx_m * units.dx_m;
-    let setup = &grains.setup;
-    let of = |grain: &crate::dem::Grain| {
-        let density = setup.materials.list[grain.material].density_kg_m3;
-        let cube = grain.radius * grain.radius * grain.radius;
-        let mass = 4.0 / 3.0 * std::f64::consts::PI * density * cube / mass_unit;
-        let share = match grain.shape {
-            crate::dem::Shape::Sphere => 1.0,
-            crate::dem::Shape::Clump(k) => setup.clumps.get(k).map_or(1.0, |clump| {
-                let largest = clump.members.iter().map(|member| member.radius).fold(0.0, f64::max);
-                largest / clump.equivalent_radius()
-            }),
-        };
-        let radius = units.length_to_lattice(share * grain.radius);
-        6.0 * std::f64::consts::PI * mu * radius * radius / (STIFFEST * mass)
-    };
-    setup.grains.iter().filter(|grain| !grain.driven).map(of).fold(0.0, f64::max)
-}
-
-/// What `lahar plan` says about the grains, and its warnings.
-pub(super) fn numbers(
-    scene: &Scene,
-    units: &Units,
-    setup: &Setup,
-    coupled: &Coupled,
-    findings: &Findings,
-    scales: &Scales,
-    mixture_m3: f64,
-) -> (CoupledNumbers, Vec<String>) {
-    numbers::numbers(&numbers::Given { scene, units, setup, coupled, findings, scales, mixture_m3 })
+/// What `lahar plan` shows about the grains, and its warnings.
+pub(super) fn numbers(given: &Given) -> (CoupledNumbers, Vec<Warning>) {
+    let numbers = numbers::numbers(given);
+    let warnings = warnings::warnings(given, &numbers);
+    (numbers, warnings)
 }

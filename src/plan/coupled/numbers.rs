@@ -2,25 +2,19 @@
 
 use serde::Serialize;
 
+use super::bytes::{LINKS, added_bytes};
 use super::classes::{ClassNumbers, PACKING, classes};
 use super::speed::{HELD_ABOVE, yield_number};
-use super::{Coupled, Findings, LOW_DENSITY_RATIO, LUBRICATED_GAP, gap_viscosity, ratios};
-use crate::collision::{CollisionChoice, OddRate};
+use super::{Coupled, Findings, ratios};
+use crate::collision::CollisionChoice;
 use crate::coupling::{GrainRefill, GrainWall};
-use crate::plan::law::apparent_viscosity;
-use crate::plan::print::short;
+use crate::dem::Setup as Grains;
+use crate::plan::facts::Facts;
 use crate::plan::scale::Scales;
 use crate::rheology::bagnold::Mixture;
 use crate::scene::{Boundary, FACE_KEYS, Scene};
 use crate::setup::Setup;
 use crate::units::Units;
-
-/// Bytes per cell of the box for the owner of a covered cell.
-const OWNER: u64 = 4;
-/// Bytes per link between fluid and a covered cell.
-const LINK: u64 = 12;
-/// Links of a sphere over its radius in cells squared: lines of the 18 directions that cross it, 6π + 12√2π.
-const LINKS: f64 = 72.0;
 
 /// What `lahar plan` shows about grains in a fluid.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -37,7 +31,7 @@ pub struct CoupledNumbers {
     pub walls: usize,
     /// Least and largest radius, m.
     pub radius_m: [f64; 2],
-    /// The same, cells.
+    /// Least and largest radius, cells.
     pub radius_cells: [f64; 2],
     /// Error of the drag on the smallest grain to expect, relative.
     pub drag_error: f64,
@@ -55,8 +49,8 @@ pub struct CoupledNumbers {
     pub lubrication: Option<LubricationNumbers>,
     /// Steps of the grains in a step of the fluid.
     pub sub_steps: u32,
-    /// What fixed them: `given`, `contacts` or `lubrication`.
-    pub sub_steps_from: &'static str,
+    /// What fixed them.
+    pub sub_steps_from: SubStepsFrom,
     /// Step of the grains, s.
     pub time_step_s: f64,
     /// Shortest contact, s.
@@ -93,6 +87,18 @@ pub struct CoupledNumbers {
     pub notes: Vec<String>,
 }
 
+/// What fixed the number of sub-steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SubStepsFrom {
+    /// The scene.
+    Given,
+    /// Contacts.
+    Contacts,
+    /// Lubrication.
+    Lubrication,
+}
+
 /// Rules of lubrication.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LubricationNumbers {
@@ -106,8 +112,9 @@ pub struct LubricationNumbers {
     pub limited_gap_cells: f64,
 }
 
-pub(super) struct Given<'a> {
-    pub scene: &'a Scene,
+/// What they follow from.
+pub(in crate::plan) struct Given<'a> {
+    pub facts: &'a Facts<'a>,
     pub units: &'a Units,
     pub setup: &'a Setup,
     pub coupled: &'a Coupled,
@@ -123,57 +130,71 @@ pub(super) fn drag_error(r: f64) -> f64 {
     0.05 * ratio * ratio * ratio
 }
 
-/// Bytes that grains add to a run: owners of cells, links, lists of covered cells.
-pub(in crate::plan) fn added_bytes(setup: &Setup) -> u64 {
-    let Some(grains) = &setup.grains else { return 0 };
-    let dx = grains.units.dx_m;
-    let one = |radius: f64| {
-        let r = radius / dx;
-        (LINKS * r * r) as u64 * LINK + (4.19 * r * r * r) as u64 * 4
-    };
-    let spheres: u64 = grains.dem.grains.iter().map(|grain| one(grain.radius)).sum();
-    let gear = grains.dem.integrator != crate::dem::Integrator::Verlet;
-    let members = |grain: &crate::dem::Grain| match grain.shape {
-        crate::dem::Shape::Sphere => 1.0,
-        crate::dem::Shape::Clump(k) => grains.dem.clumps.get(k).map_or(1.0, |c| c.members.len() as f64),
-    };
-    let bodies = |grain| crate::plan::grains::speed::bytes_per_grain(members(grain), gear);
-    let bodies = grains.dem.grains.iter().map(bodies).sum::<f64>() as u64;
-    setup.cells() as u64 * OWNER + spheres + bodies
+/// All that is shown about the grains but the warnings.
+pub(super) fn numbers(given: &Given) -> CoupledNumbers {
+    let numbers = without_classes(given);
+    let (mixture, spacing) = (mixture(given, &numbers), given.units.dx_m);
+    let (classes, no_bagnold) = classes(&given.coupled.grains.setup, spacing, &mixture);
+    CoupledNumbers { classes, no_bagnold, ..numbers }
 }
 
-pub(super) fn numbers(given: &Given) -> (CoupledNumbers, Vec<String>) {
-    let Given { scene, units, setup, coupled, findings, scales, .. } = *given;
-    let (grains, stepping) = (&coupled.grains, &findings.stepping);
-    let dem = &grains.setup;
-    let n = &grains.numbers;
-    let law = &scene.fluid.rheology;
+/// Grains and fluid in shear.
+fn mixture(given: &Given, n: &CoupledNumbers) -> Mixture {
+    let fluid_density = given.facts.scene.fluid.density_kg_per_m3;
+    let shear_rate = n.shear_rate_per_s;
+    let viscosity = || given.facts.curve().apparent_viscosity(shear_rate);
+    Mixture {
+        solid_fraction: n.solid_fraction,
+        maximum_packing: PACKING,
+        grain_density: n
+            .density_ratio
+            .map_or(fluid_density, |[low, high]| 0.5 * (low + high) * fluid_density),
+        fluid_density,
+        viscosity_pa_s: if shear_rate > 0.0 { viscosity() } else { f64::NAN },
+        shear_rate,
+    }
+}
+
+/// Least and largest density of a free grain over that of the fluid.
+fn density_ratio(scene: &Scene, dem: &Grains) -> Option<[f64; 2]> {
+    ratios(scene, dem).map(|(_, ratio)| ratio).fold(None, |range: Option<[f64; 2]>, ratio| {
+        Some(range.map_or([ratio; 2], |[low, high]| [low.min(ratio), high.max(ratio)]))
+    })
+}
+
+/// Volume of the grains over that of grains and fluid.
+fn solid_fraction(dem: &Grains, mixture_m3: f64) -> f64 {
+    let of_one = |r: f64| 4.0 / 3.0 * std::f64::consts::PI * r * r * r;
+    dem.grains.iter().map(|grain| of_one(grain.radius)).sum::<f64>() / mixture_m3
+}
+
+/// ρ U d/μ of the largest grain at its speed relative to the fluid.
+fn particle_reynolds(given: &Given, diameter: f64) -> f64 {
+    let slip = given.findings.slip;
+    let around = slip / diameter;
+    let curve = given.facts.curve();
+    let viscosity = if around > 0.0 { curve.apparent_viscosity(around) } else { f64::INFINITY };
+    given.facts.scene.fluid.density_kg_per_m3 * slip * diameter / viscosity
+}
+
+/// The yield number of the largest grain over its value at which a sphere is held.
+fn held(given: &Given, diameter: f64) -> f64 {
+    let (scene, dem) = (given.facts.scene, &given.coupled.grains.setup);
     let density = scene.fluid.density_kg_per_m3;
+    let excess = ratios(scene, dem).map(|(_, ratio)| (ratio - 1.0).abs() * density).fold(0.0, f64::max);
+    yield_number(given.facts.curve(), excess, dem.gravity.norm(), diameter) / HELD_ABOVE
+}
+
+/// All but the size classes.
+fn without_classes(given: &Given) -> CoupledNumbers {
+    let Given { facts, units, setup, coupled, findings, .. } = *given;
+    let (suspension, stepping) = (&coupled.suspension, &findings.stepping);
+    let (dem, n) = (&coupled.grains.setup, &coupled.grains.numbers);
     let radius_m = [n.least_radius_m, n.largest_radius_m];
     let radius_cells = radius_m.map(|r| units.length_to_lattice(r));
-    let of_one = |r: f64| 4.0 / 3.0 * std::f64::consts::PI * r * r * r;
-    let volume: f64 = dem.grains.iter().map(|grain| of_one(grain.radius)).sum();
-    let solid_fraction = volume / given.mixture_m3;
-    let density_ratio =
-        ratios(scene, dem).map(|(_, ratio)| ratio).fold(None, |range: Option<[f64; 2]>, ratio| {
-            Some(range.map_or([ratio; 2], |[low, high]| [low.min(ratio), high.max(ratio)]))
-        });
     let diameter = 2.0 * n.largest_radius_m;
-    let around = findings.slip / diameter;
-    let viscosity = if around > 0.0 { apparent_viscosity(law, around) } else { f64::INFINITY };
-    let excess = ratios(scene, dem).map(|(_, ratio)| (ratio - 1.0).abs() * density).fold(0.0, f64::max);
-    let rate = scales.shear_rate;
-    let mixture = Mixture {
-        solid_fraction,
-        maximum_packing: PACKING,
-        grain_density: density_ratio.map_or(density, |[low, high]| 0.5 * (low + high) * density),
-        fluid_density: density,
-        viscosity_pa_s: if rate > 0.0 { apparent_viscosity(law, rate) } else { f64::NAN },
-        shear_rate: rate,
-    };
-    let (classes, no_bagnold) = classes(dem, units.dx_m, &mixture);
-    let held = yield_number(law, excess, dem.gravity.norm(), diameter) / HELD_ABOVE;
-    let numbers = CoupledNumbers {
+    let held = held(given, diameter);
+    CoupledNumbers {
         grains: n.grains,
         clumps: n.clumps,
         driven: n.driven,
@@ -183,18 +204,11 @@ pub(super) fn numbers(given: &Given) -> (CoupledNumbers, Vec<String>) {
         radius_cells,
         drag_error: drag_error(radius_cells[0]),
         mass_kg: n.mass_kg,
-        solid_fraction,
-        density_ratio,
-        wall: match coupled.suspension.wall {
-            GrainWall::HalfWay => "half_way",
-            GrainWall::CentralLinear => "central_linear",
-        },
-        refill: match coupled.suspension.refill {
-            GrainRefill::WithStress => "with_stress",
-            GrainRefill::Equilibrium => "equilibrium",
-            GrainRefill::Neighbours => "neighbours",
-        },
-        lubrication: coupled.suspension.lubrication.map(|rules| LubricationNumbers {
+        solid_fraction: solid_fraction(dem, given.mixture_m3),
+        density_ratio: density_ratio(facts.scene, dem),
+        wall: wall(suspension.wall),
+        refill: refill(suspension.refill),
+        lubrication: suspension.lubrication.map(|rules| LubricationNumbers {
             cutoff_cells: rules.cutoff,
             smallest_gap_cells: rules.smallest_gap,
             tangential: rules.tangential,
@@ -202,9 +216,9 @@ pub(super) fn numbers(given: &Given) -> (CoupledNumbers, Vec<String>) {
         }),
         sub_steps: stepping.sub_steps,
         sub_steps_from: match (stepping.given, stepping.for_gaps) {
-            (true, _) => "given",
-            (false, true) => "lubrication",
-            (false, false) => "contacts",
+            (true, _) => SubStepsFrom::Given,
+            (false, true) => SubStepsFrom::Lubrication,
+            (false, false) => SubStepsFrom::Contacts,
         },
         time_step_s: n.time_step_s,
         contact_time_s: n.contact_time_s,
@@ -212,28 +226,40 @@ pub(super) fn numbers(given: &Given) -> (CoupledNumbers, Vec<String>) {
         design_speed_m_per_s: n.design_speed_m_per_s,
         speed_m_per_s: findings.slip,
         speed_lattice: findings.fastest,
-        particle_reynolds: density * findings.slip * diameter / viscosity,
+        particle_reynolds: particle_reynolds(given, diameter),
         held,
-        balanced: coupled.suspension.balanced,
-        weightless: std::array::from_fn(|a| coupled.suspension.pressure_gradient[a] != 0.0),
+        balanced: suspension.balanced,
+        weightless: std::array::from_fn(|a| suspension.pressure_gradient[a] != 0.0),
         links: dem.grains.iter().map(|g| LINKS * (g.radius / units.dx_m) * (g.radius / units.dx_m)).sum(),
         bytes: added_bytes(setup),
         sphere_updates: n.sphere_updates,
-        shear_rate_per_s: rate,
-        classes,
-        no_bagnold,
-        notes: notes(scene, held, &setup.collision),
-    };
-    let warnings = warnings(given, &numbers);
-    (numbers, warnings)
+        shear_rate_per_s: given.scales.shear_rate,
+        classes: Vec::new(),
+        no_bagnold: None,
+        notes: notes(facts, held, &setup.collision),
+    }
 }
 
-fn notes(scene: &Scene, held: f64, collision: &CollisionChoice) -> Vec<String> {
-    let faces = scene.domain.boundaries.by_axis();
+const fn wall(wall: GrainWall) -> &'static str {
+    match wall {
+        GrainWall::HalfWay => "half_way",
+        GrainWall::CentralLinear => "central_linear",
+    }
+}
+
+const fn refill(refill: GrainRefill) -> &'static str {
+    match refill {
+        GrainRefill::WithStress => "with_stress",
+        GrainRefill::Equilibrium => "equilibrium",
+        GrainRefill::Neighbours => "neighbours",
+    }
+}
+
+fn notes(facts: &Facts, held: f64, collision: &CollisionChoice) -> Vec<String> {
     let mut keys = Vec::new();
     for (axis, keys_of) in FACE_KEYS.iter().enumerate() {
         for (side, key) in keys_of.iter().enumerate() {
-            if faces[axis][side] == Boundary::Open {
+            if facts.faces[axis][side] == Boundary::Open {
                 keys.push(format!("`{key}`"));
             }
         }
@@ -250,73 +276,6 @@ fn notes(scene: &Scene, held: f64, collision: &CollisionChoice) -> Vec<String> {
         );
     }
     notes
-}
-
-fn warnings(given: &Given, n: &CoupledNumbers) -> Vec<String> {
-    let mut out = Vec::new();
-    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
-    let mut warn = |yes: bool, text: String| {
-        if yes {
-            out.push(text);
-        }
-    };
-    warn(
-        n.radius_cells[0] < 2.0,
-        format!(
-            "the smallest grain has a radius of {} cells: expect its drag to be off by {}; 2.2 cells give 5 %, 3.35 \
-             cells 1.2 %, 5 cells 0.4 %",
-            short(n.radius_cells[0]),
-            percent(n.drag_error)
-        ),
-    );
-    warn(
-        n.density_ratio.is_some_and(|[low, _]| low < LOW_DENSITY_RATIO),
-        format!(
-            "a grain has {} of the fluid's density: below {LOW_DENSITY_RATIO} the added mass of the fluid outweighs it, and its \
-             motion rings for some steps",
-            n.density_ratio.map_or_else(String::new, |[low, _]| short(low))
-        ),
-    );
-    warn(
-        n.lubrication.is_some_and(|rules| rules.limited_gap_cells > LUBRICATED_GAP * (1.0 + 1e-9)),
-        format!("lubrication is limited by the time step below {LUBRICATED_GAP} cells"),
-    );
-    warn(
-        n.speed_lattice > 0.1,
-        format!("grains move up to {} cells per step: errors of several per cent", short(n.speed_lattice)),
-    );
-    let lowest = given.units.tau_of_viscosity(gap_viscosity(given.scene, given.scales));
-    if let Some((below, way_out)) = unstable_below(&given.setup.collision, given.coupled.suspension.wall) {
-        warn(
-            lowest < below && n.speed_lattice > 0.05,
-            format!(
-                "grains move up to {} cells per step at a relaxation time of {lowest:.3}: below {below} with more than 0.05 cells \
-                 per step the flow around them blows up with these rules; {way_out}",
-                short(n.speed_lattice)
-            ),
-        );
-    }
-    // What the grains by themselves warn of, less what is about falling for ever: the fluid holds them.
-    let dry = given.coupled.grains.numbers.warnings.iter();
-    out.extend(
-        dry.filter(|warning| !warning.contains("fall for ever") && !warning.contains("days")).cloned(),
-    );
-    out
-}
-
-/// τ⁺ below which fast grains make a collision operator fail, as measured with a sphere of 3.3 cells at 0.08 to 0.15
-/// cells per step; `None`: not down to 0.505.
-fn unstable_below(collision: &CollisionChoice, wall: GrainWall) -> Option<(f64, &'static str)> {
-    match collision {
-        CollisionChoice::CentralMoment(odd) if odd.lowered_below < OddRate::AMONG_GRAINS.lowered_below => {
-            Some((0.6, "leave out `numerics.collision.lowered_below`"))
-        }
-        CollisionChoice::Trt(_) if wall == GrainWall::HalfWay => {
-            Some((0.52, "take the surface `central_linear`, a shorter time step or a coarser grid"))
-        }
-        CollisionChoice::Regularised => Some((0.55, "take another operator")),
-        _ => None,
-    }
 }
 
 #[cfg(test)]

@@ -2,10 +2,9 @@
 
 use std::fmt;
 
-use super::CoupledNumbers;
+use super::{CoupledNumbers, SubStepsFrom};
 use crate::geometry::Axis;
-use crate::plan::memory::human;
-use crate::plan::print::{row, short};
+use crate::plan::text::{human, row, short};
 use crate::rheology::bagnold::Regime;
 
 pub(in crate::plan) fn table(f: &mut fmt::Formatter<'_>, n: &CoupledNumbers) -> fmt::Result {
@@ -39,10 +38,21 @@ pub(in crate::plan) fn table(f: &mut fmt::Formatter<'_>, n: &CoupledNumbers) -> 
         row(f, "yield number over critical", format_args!("{}: {what}", short(n.held)))?;
     }
     gravity(f, n)?;
+    rules(f, n)?;
+    row(f, "added memory", format_args!("{}; about {} links", human(n.bytes), short(n.links)))?;
+    row(f, "sphere updates", format_args!("{}", short(n.sphere_updates)))?;
+    for note in &n.notes {
+        row(f, "note", format_args!("{note}"))?;
+    }
+    classes(f, n)
+}
+
+/// Sub-steps and rules of the coupling.
+fn rules(f: &mut fmt::Formatter<'_>, n: &CoupledNumbers) -> fmt::Result {
     let from = match n.sub_steps_from {
-        "given" => "given",
-        "lubrication" => "chosen for lubrication down to a gap of 0.1 cells",
-        _ => "chosen for contacts",
+        SubStepsFrom::Given => "given",
+        SubStepsFrom::Lubrication => "chosen for lubrication down to a gap of 0.1 cells",
+        SubStepsFrom::Contacts => "chosen for contacts",
     };
     row(
         f,
@@ -58,7 +68,7 @@ pub(in crate::plan) fn table(f: &mut fmt::Formatter<'_>, n: &CoupledNumbers) -> 
     )?;
     row(f, "surface, freed cells", format_args!("{}, {}", n.wall, n.refill))?;
     match &n.lubrication {
-        None => row(f, "lubrication", format_args!("off"))?,
+        None => row(f, "lubrication", format_args!("off")),
         Some(rules) => row(
             f,
             "lubrication",
@@ -69,14 +79,8 @@ pub(in crate::plan) fn table(f: &mut fmt::Formatter<'_>, n: &CoupledNumbers) -> 
                 if rules.tangential { "" } else { ", normal only" },
                 short(rules.limited_gap_cells)
             ),
-        )?,
+        ),
     }
-    row(f, "added memory", format_args!("{}; about {} links", human(n.bytes), short(n.links)))?;
-    row(f, "sphere updates", format_args!("{}", short(n.sphere_updates)))?;
-    for note in &n.notes {
-        row(f, "note", format_args!("{note}"))?;
-    }
-    classes(f, n)
 }
 
 fn gravity(f: &mut fmt::Formatter<'_>, n: &CoupledNumbers) -> fmt::Result {

@@ -2,8 +2,9 @@
 
 use crate::dem::{Grain, Setup};
 use crate::plan::cells::Cells;
-use crate::plan::law::{parameters, plastic_viscosity};
-use crate::scene::{Rheology, Scene};
+use crate::plan::facts::Facts;
+use crate::rheology::FlowCurve;
+use crate::scene::Scene;
 
 /// Yield number σ0/(|ρs − ρ| g d) above which a sphere is held.
 ///
@@ -13,8 +14,8 @@ pub const HELD_ABOVE: f64 = 0.143 / 3.0;
 
 /// σ0/(|ρs − ρ| g d); infinite without a weight.
 #[must_use]
-pub fn yield_number(law: &Rheology, excess: f64, gravity: f64, diameter: f64) -> f64 {
-    let sigma0 = parameters(law).sigma0;
+pub fn yield_number(curve: &dyn FlowCurve, excess: f64, gravity: f64, diameter: f64) -> f64 {
+    let sigma0 = curve.plastic_stress();
     let weight = excess.abs() * gravity * diameter;
     if sigma0 == 0.0 {
         0.0
@@ -32,15 +33,15 @@ pub fn yield_number(law: &Rheology, excess: f64, gravity: f64, diameter: f64) ->
 /// # Arguments
 /// `excess`: ρs − ρ, kg/m³; `density`: of the fluid; `gravity`, m/s²; `diameter`, m.
 #[must_use]
-pub fn terminal(law: &Rheology, density: f64, excess: f64, gravity: f64, diameter: f64) -> f64 {
-    let held = yield_number(law, excess, gravity, diameter) / HELD_ABOVE;
+pub fn terminal(curve: &dyn FlowCurve, density: f64, excess: f64, gravity: f64, diameter: f64) -> f64 {
+    let held = yield_number(curve, excess, gravity, diameter) / HELD_ABOVE;
     let cube = diameter * diameter * diameter;
     let pull = std::f64::consts::PI / 6.0 * cube * excess.abs() * gravity * (1.0 - held);
     if pull.is_nan() || pull <= 0.0 {
         return 0.0;
     }
     let drag = |w: f64| {
-        let mu = plastic_viscosity(law, w / diameter);
+        let mu = curve.plastic_viscosity(w / diameter);
         let reynolds = density * w * diameter / mu;
         3.0 * std::f64::consts::PI * mu * diameter * w * (1.0 + 0.15 * libm::pow(reynolds, 0.687))
     };
@@ -59,7 +60,8 @@ pub fn terminal(law: &Rheology, density: f64, excess: f64, gravity: f64, diamete
 /// Speed of a grain relative to the fluid around it, m/s: terminal, or what it gains by falling through air before it
 /// reaches the fluid, whichever is more.
 #[must_use]
-pub fn relative(scene: &Scene, setup: &Setup, cells: &Cells, grain: &Grain) -> f64 {
+pub fn relative(facts: &Facts, setup: &Setup, cells: &Cells, grain: &Grain) -> f64 {
+    let scene = facts.scene;
     let density = scene.fluid.density_kg_per_m3;
     let own = setup.materials.list[grain.material].density_kg_m3;
     let (gravity, excess) = (setup.gravity.norm(), own - density);
@@ -70,7 +72,7 @@ pub fn relative(scene: &Scene, setup: &Setup, cells: &Cells, grain: &Grain) -> f
     let drop = air_below(scene, cells, grain);
     // From rest it gains no more than this on its way through the box.
     let way = (2.0 * gravity * (excess / own).abs() * longest).sqrt();
-    let sink = terminal(&scene.fluid.rheology, density, excess, gravity, 2.0 * grain.radius).min(way);
+    let sink = terminal(facts.curve(), density, excess, gravity, 2.0 * grain.radius).min(way);
     sink.max((2.0 * gravity * drop).sqrt())
 }
 
@@ -101,24 +103,24 @@ fn air_below(scene: &Scene, cells: &Cells, grain: &Grain) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rheology::Law;
 
     #[test]
     fn terminal_speeds_of_known_cases() {
         // Stokes, Re = 1e-6: 2/9 Δρ g r²/μ up to 0.15 Re^0.687 = 1e-5.
-        let honey = Rheology::Newtonian { viscosity_pa_s: 10.0 };
-        let slow = terminal(&honey, 1000.0, 100.0, 9.81, 2e-3);
+        let honey = Law::Newtonian { mu: 10.0 }.curve();
+        let slow = terminal(&*honey, 1000.0, 100.0, 9.81, 2e-3);
         let stokes = 2.0 / 9.0 * 100.0 * 9.81 * 1e-6 / 10.0;
         assert!((slow / stokes - 1.0).abs() < 1e-4, "{slow} {stokes}");
         // ten Cate's case E1: 0.038 m/s by Abraham's drag, which lies up to 10 % above this curve.
-        let oil = Rheology::Newtonian { viscosity_pa_s: 0.373 };
-        let e1 = terminal(&oil, 970.0, 150.0, 9.81, 0.015);
+        let oil = Law::Newtonian { mu: 0.373 }.curve();
+        let e1 = terminal(&*oil, 970.0, 150.0, 9.81, 0.015);
         assert!((0.038..0.043).contains(&e1), "{e1}");
         // Held: σ0 = 0.05 Δρ g d.
-        let mud =
-            Rheology::Bingham { yield_stress_pa: 0.05 * 1500.0 * 9.81 * 0.01, plastic_viscosity_pa_s: 1.0 };
-        assert_eq!(terminal(&mud, 1000.0, 1500.0, 9.81, 0.01), 0.0);
-        let thin = Rheology::Bingham { yield_stress_pa: 1.0, plastic_viscosity_pa_s: 1.0 };
-        assert!(terminal(&thin, 1000.0, 1500.0, 9.81, 0.01) > 0.0);
-        assert_eq!(terminal(&thin, 1000.0, 0.0, 9.81, 0.01), 0.0);
+        let mud = Law::Bingham { sigma0: 0.05 * 1500.0 * 9.81 * 0.01, mu: 1.0 }.curve();
+        assert_eq!(terminal(&*mud, 1000.0, 1500.0, 9.81, 0.01), 0.0);
+        let thin = Law::Bingham { sigma0: 1.0, mu: 1.0 }.curve();
+        assert!(terminal(&*thin, 1000.0, 1500.0, 9.81, 0.01) > 0.0);
+        assert_eq!(terminal(&*thin, 1000.0, 0.0, 9.81, 0.01), 0.0);
     }
 }

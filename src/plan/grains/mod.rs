@@ -15,7 +15,7 @@ pub use numbers::GrainNumbers;
 pub use place::COLUMNS;
 pub use walls::Walls;
 
-use super::{PlanError, PlanProblem};
+use super::error::{PlanError, PlanProblem};
 use crate::dem::{self, DemError, Setup};
 use crate::scene::Boundary;
 use crate::scene::dry::{DryScene, IntegratorChoice};
@@ -56,7 +56,7 @@ impl GrainPlan {
     /// Grains that overlap, do not fit, or are outside; a time step too long; files that cannot be read; too little
     /// memory.
     pub fn new(scene: &DryScene) -> Result<Self, PlanError> {
-        Self::with_memory(scene, super::available_memory())
+        Self::with_memory(scene, super::memory::available())
     }
 
     /// Plans a scene as if `available` bytes of memory were free; `None` does not look at memory.

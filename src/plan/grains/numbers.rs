@@ -7,11 +7,10 @@ use crate::dem::contact::restitution::hertz_largest_overlap;
 use crate::dem::material::{Compiled, PairLaw};
 use crate::dem::timestep::Shortest;
 use crate::dem::{Dem, Integrator, Setup, Surface};
-use crate::plan::Need;
+use crate::plan::cost::SPHERE_UPDATES_PER_SECOND;
+use crate::plan::needs::Need;
+use crate::plan::warning::{Warning, holding};
 use crate::scene::dry::DryScene;
-
-/// Sphere updates per second on one thread, for the rough time: the order of what `lahar bench` gives.
-const ASSUMED_SPEED: f64 = 2e6;
 
 /// What `lahar plan` prints for a scene without fluid.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -79,7 +78,7 @@ pub struct GrainNumbers {
     /// Rough time on one thread, s.
     pub estimated_seconds: f64,
     /// What to know before running.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 pub(super) fn numbers(
@@ -91,21 +90,12 @@ pub(super) fn numbers(
     estimated: f64,
 ) -> GrainNumbers {
     let b = dem.bodies();
-    let extreme =
-        |pick: fn(f64, f64) -> f64, from: f64, radii: &mut dyn Iterator<Item = f64>| radii.fold(from, pick);
-    let radii = || b.radius.iter().copied();
-    let spheres = || dem.members().iter().map(|m| m.radius);
-    let (least, largest) =
-        (extreme(f64::min, f64::INFINITY, &mut radii()), extreme(f64::max, 0.0, &mut radii()));
-    let ratio = extreme(f64::max, 0.0, &mut spheres()) / extreme(f64::min, f64::INFINITY, &mut spheres());
+    let [least, largest] = extremes(b.radius.iter().copied());
+    let [smallest, greatest] = extremes(dem.members().iter().map(|member| member.radius));
     let volume: f64 =
         (0..b.len()).map(|i| b.mass[i] / setup.materials.list[setup.grains[i].material].density_kg_m3).sum();
     let dt = dem.time_step();
     let clumps = setup.grains.iter().filter(|g| g.shape != crate::dem::Shape::Sphere).count();
-    let triangles = setup.walls.iter().map(|w| match &w.surface {
-        Surface::Mesh(mesh) => mesh.triangles.len(),
-        _ => 0,
-    });
     let members = dem.members().len();
     let gear = setup.integrator != Integrator::Verlet;
     let updates = members as f64 * steps as f64;
@@ -116,10 +106,10 @@ pub(super) fn numbers(
         driven: b.driven.len(),
         spheres: members,
         walls: setup.walls.len(),
-        triangles: triangles.sum(),
+        triangles: triangles(setup),
         least_radius_m: least,
         largest_radius_m: largest,
-        size_ratio: ratio,
+        size_ratio: greatest / smallest,
         mass_kg: dem.ledger().mass,
         solid_fraction: volume / scene.domain.size_m.iter().product::<f64>(),
         contacts: dem.pair_counts().1,
@@ -136,20 +126,40 @@ pub(super) fn numbers(
         static_overlap: static_overlap(scene, setup, volume),
         overlap_limit: setup.overlap_limit,
         restitution: [largest, least].map(|r| restitution(setup, r)),
-        integrator: match setup.integrator {
-            Integrator::Verlet => "velocity Verlet",
-            Integrator::Gear => "Gear, six values, 3/16",
-            Integrator::GearConservative => "Gear, six values, 3/20",
-        },
+        integrator: integrator(setup.integrator),
         passes: Vec::new(),
         bytes: (b.len() as f64 * bytes_per_grain(members as f64 / b.len().max(1) as f64, gear)) as u64,
         sphere_updates: updates,
-        estimated_seconds: updates / ASSUMED_SPEED,
+        estimated_seconds: updates / SPHERE_UPDATES_PER_SECOND,
         warnings: Vec::new(),
     };
     n.passes = passes(setup, &n);
     n.warnings = warnings(scene, setup, &n, estimated);
     n
+}
+
+/// Least and largest of radii; infinite and 0 without any.
+fn extremes(radii: impl Iterator<Item = f64>) -> [f64; 2] {
+    radii.fold([f64::INFINITY, 0.0], |[least, largest], r| [least.min(r), largest.max(r)])
+}
+
+/// Triangles of all meshes.
+fn triangles(setup: &Setup) -> usize {
+    let meshes = setup.walls.iter().filter_map(|wall| match &wall.surface {
+        Surface::Mesh(mesh) => Some(mesh.triangles.len()),
+        Surface::Plane { .. } | Surface::Box { .. } | Surface::Cylinder { .. } | Surface::Sphere { .. } => {
+            None
+        }
+    });
+    meshes.sum()
+}
+
+const fn integrator(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::Verlet => "velocity Verlet",
+        Integrator::Gear => "Gear, six values, 3/16",
+        Integrator::GearConservative => "Gear, six values, 3/20",
+    }
 }
 
 /// Every pair law between two materials of the scene.
@@ -177,7 +187,9 @@ fn impact_overlap(setup: &Setup) -> f64 {
                     let r = setup.grains.iter().map(|g| g.radius).fold(0.0, f64::max);
                     v * (mass * r / stiffness).sqrt()
                 }
-                _ => hertz_largest_overlap(mass, law.young, 0.5, v),
+                Compiled::Tsuji { .. } | Compiled::ViscoElastic { .. } => {
+                    hertz_largest_overlap(mass, law.young, 0.5, v)
+                }
             }
         })
         .fold(0.0, f64::max)
@@ -198,7 +210,9 @@ fn static_overlap(scene: &DryScene, setup: &Setup, volume: f64) -> f64 {
             match law.normal {
                 Compiled::Linear { stiffness, .. } => force / stiffness / r,
                 // F = (4/3) E* √R* δ^{3/2} with R* = r/2.
-                _ => libm::pow(0.75 * force / (law.young * (0.5 * r).sqrt()), 2.0 / 3.0) / r,
+                Compiled::Tsuji { .. } | Compiled::ViscoElastic { .. } => {
+                    libm::pow(0.75 * force / (law.young * (0.5 * r).sqrt()), 2.0 / 3.0) / r
+                }
             }
         })
         .fold(0.0, f64::max)
@@ -225,72 +239,42 @@ fn passes(setup: &Setup, n: &GrainNumbers) -> Vec<Need> {
     let rolling = setup.materials.compile().is_ok_and(|table| table.any_rolling);
     let moving = setup.walls.iter().any(crate::dem::Wall::shifts);
     let periodic = setup.period.0.iter().any(Option::is_some);
-    let need = |pass, needed, yes, no| Need { pass, needed, because: if needed { yes } else { no } };
     vec![
-        need(
+        Need::of(
             "contacts of grains",
             n.grains > 1,
             "lists of neighbours, made anew when a grain has moved",
             "one grain",
         ),
-        need("contacts with walls", n.walls > 0, "faces of the box or solids", "no wall"),
-        need("meshes", n.triangles > 0, "triangles in a tree", "no mesh"),
-        need("moving walls", moving, "a wall changes its place", "walls stay where they are"),
-        need("periodic images", periodic, "a periodic axis", "no periodic axis"),
-        need("rotation of clumps", n.clumps > 0, "clumps have three moments of inertia", "spheres only"),
-        need("rolling resistance", rolling, "a pair with `rolling_friction`", "no pair has any"),
-        need("fluid", false, "", "no populations, no fill levels, no cells: none is allocated"),
+        Need::of("contacts with walls", n.walls > 0, "faces of the box or solids", "no wall"),
+        Need::of("meshes", n.triangles > 0, "triangles in a tree", "no mesh"),
+        Need::of("moving walls", moving, "a wall changes its place", "walls stay where they are"),
+        Need::of("periodic images", periodic, "a periodic axis", "no periodic axis"),
+        Need::of("rotation of clumps", n.clumps > 0, "clumps have three moments of inertia", "spheres only"),
+        Need::of("rolling resistance", rolling, "a pair with `rolling_friction`", "no pair has any"),
+        Need::of("fluid", false, "", "no populations, no fill levels, no cells: none is allocated"),
     ]
 }
 
-fn warnings(scene: &DryScene, setup: &Setup, n: &GrainNumbers, estimated: f64) -> Vec<String> {
-    let mut out = Vec::new();
-    let percent = |share: f64| super::print::short(100.0 * share);
-    if n.impact_overlap > n.overlap_limit {
-        out.push(format!(
-            "an impact at the design speed overlaps by {} % of the radius, and runs stop at {} %: stiffer material, or \
-             slower grains",
-            percent(n.impact_overlap),
-            percent(n.overlap_limit)
-        ));
-    } else if n.impact_overlap > 0.05 {
-        out.push(format!(
-            "an impact at the design speed overlaps by {} % of the radius; contact laws are for small overlaps",
-            percent(n.impact_overlap)
-        ));
-    }
-    if n.static_overlap > 0.02 {
-        out.push(format!(
-            "grains at the bottom of a pile would overlap by {} % of the radius: the material is soft for this load",
-            percent(n.static_overlap)
-        ));
-    }
-    if n.design_speed_given && setup.design_speed_m_s < 0.5 * estimated {
-        out.push(format!(
-            "the design speed is {} m/s, but grains may reach {} m/s",
-            super::print::short(setup.design_speed_m_s),
-            super::print::short(estimated)
-        ));
-    }
-    if n.steps_per_contact < 20.0 {
-        out.push(format!(
-            "{:.1} steps in the shortest contact: restitution is off by about a percent; 50 are usual",
-            n.steps_per_contact
-        ));
-    }
-    let falls =
-        (0..3).any(|k| setup.period.0[k].is_some() && setup.gravity[k].abs() > 1e-12 * setup.gravity.norm());
-    if falls && setup.walls.is_empty() && n.driven == 0 {
-        out.push(
-            "gravity pulls along a periodic axis and nothing holds the grains: they fall for ever".to_owned(),
-        );
-    }
-    if n.estimated_seconds > 86_400.0 {
-        out.push(format!("this takes about {:.0} days on one thread", n.estimated_seconds / 86_400.0));
-    }
+/// The warnings, in the order in which they are printed.
+fn warnings(scene: &DryScene, setup: &Setup, n: &GrainNumbers, estimated: f64) -> Vec<Warning> {
+    let (overlap, limit, design) = (n.impact_overlap, n.overlap_limit, setup.design_speed_m_s);
+    let slow = n.design_speed_given && design < 0.5 * estimated;
     let soft = setup.materials.list.iter().any(|m| m.young_pa < 1e5);
-    if soft && scene.gravity.is_some() {
-        out.push("Young's modulus below 1e5 Pa is softer than rubber".to_owned());
-    }
-    out
+    holding([
+        (overlap > limit, Warning::ImpactStops { overlap, limit }),
+        (overlap <= limit && overlap > 0.05, Warning::ImpactDeep { overlap }),
+        (n.static_overlap > 0.02, Warning::PileDeep { overlap: n.static_overlap }),
+        (slow, Warning::DesignSpeed { design_m_per_s: design, expected_m_per_s: estimated }),
+        (n.steps_per_contact < 20.0, Warning::FewSteps { steps: n.steps_per_contact }),
+        (falls(setup) && setup.walls.is_empty() && n.driven == 0, Warning::FallForEver),
+        (n.estimated_seconds > 86_400.0, Warning::Days { days: n.estimated_seconds / 86_400.0 }),
+        (soft && scene.gravity.is_some(), Warning::Soft),
+    ])
+}
+
+/// Whether gravity pulls along a periodic axis.
+fn falls(setup: &Setup) -> bool {
+    let strength = setup.gravity.norm();
+    (0..3).any(|k| setup.period.0[k].is_some() && setup.gravity[k].abs() > 1e-12 * strength)
 }

@@ -3,12 +3,21 @@
 use std::fmt;
 
 use super::GrainNumbers;
-use crate::plan::memory::human;
-use crate::plan::print::row;
-pub(super) use crate::plan::print::short;
+use crate::plan::cost::{SPHERE_UPDATES_PER_SECOND, millions};
+use crate::plan::text::{human, passes, row, short, warnings};
 
 pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
-    writeln!(f, "{}\n\nGrains", n.title)?;
+    writeln!(f, "{}", n.title)?;
+    grains(f, n)?;
+    contacts(f, n)?;
+    time(f, n)?;
+    passes(f, &n.passes)?;
+    cost(f, n)?;
+    warnings(f, &n.warnings)
+}
+
+fn grains(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
+    writeln!(f, "\nGrains")?;
     let kinds = match (n.clumps, n.driven) {
         (0, 0) => String::new(),
         (clumps, 0) => format!(", {clumps} of them clumps"),
@@ -21,7 +30,10 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result
     row(f, "mass", format_args!("{} kg", short(n.mass_kg)))?;
     row(f, "volume", format_args!("{} of the box", short(n.solid_fraction)))?;
     row(f, "touching at time 0", format_args!("{} pairs", n.contacts))?;
-    row(f, "walls", format_args!("{}, {} triangles", n.walls, n.triangles))?;
+    row(f, "walls", format_args!("{}, {} triangles", n.walls, n.triangles))
+}
+
+fn contacts(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
     writeln!(f, "\nContacts")?;
     let given =
         if n.design_speed_given { "given" } else { "the fastest grain after falling through the box" };
@@ -34,7 +46,10 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result
     )?;
     row(f, "overlap of an impact", format_args!("{} of the radius", short(n.impact_overlap)))?;
     row(f, "overlap below a pile", format_args!("{} of the radius", short(n.static_overlap)))?;
-    row(f, "run stops at", format_args!("{} of the radius", short(n.overlap_limit)))?;
+    row(f, "run stops at", format_args!("{} of the radius", short(n.overlap_limit)))
+}
+
+fn time(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
     writeln!(f, "\nTime")?;
     let rule = if n.time_step_given { "given" } else { "chosen" };
     row(
@@ -47,15 +62,10 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result
         ),
     )?;
     row(f, "steps", format_args!("{} to {} s", n.steps, short(n.end_time_s)))?;
-    row(f, "integrator", format_args!("{}", n.integrator))?;
-    writeln!(f, "\nNeeded")?;
-    for pass in n.passes.iter().filter(|pass| pass.needed) {
-        row(f, pass.pass, format_args!("{}", pass.because))?;
-    }
-    writeln!(f, "\nNot needed, not paid for")?;
-    for pass in n.passes.iter().filter(|pass| !pass.needed) {
-        row(f, pass.pass, format_args!("{}", pass.because))?;
-    }
+    row(f, "integrator", format_args!("{}", n.integrator))
+}
+
+fn cost(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
     writeln!(f, "\nCost")?;
     row(f, "memory", format_args!("{}, if grains are packed densely", human(n.bytes)))?;
     row(f, "sphere updates", format_args!("{}", short(n.sphere_updates)))?;
@@ -63,12 +73,9 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result
         f,
         "rough time",
         format_args!(
-            "{} s on one thread, assuming 2 million sphere updates per second",
-            short(n.estimated_seconds)
+            "{} s on one thread, assuming {} million sphere updates per second",
+            short(n.estimated_seconds),
+            millions(SPHERE_UPDATES_PER_SECOND)
         ),
-    )?;
-    if !n.warnings.is_empty() {
-        writeln!(f, "\nWarnings")?;
-    }
-    n.warnings.iter().try_for_each(|warning| writeln!(f, "  - {warning}"))
+    )
 }

@@ -1,7 +1,7 @@
 //! Checks of grains in a fluid.
 
-use super::{Checker, SceneError, SceneProblem};
-use crate::scene::{Boundary, LubricationChoice, Scene, dry};
+use crate::scene::checker::Checker;
+use crate::scene::{Boundary, LubricationChoice, Scene, SceneError, SceneProblem, dry};
 
 /// Most steps of the grains in a step of the fluid.
 const MOST_SUB_STEPS: f64 = 100_000.0;
@@ -12,14 +12,8 @@ pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
         what: "a second fluid",
         allowed: "one fluid around the grains",
     })?;
-    dry::check_in_fluid(&view, scene.fluid.initial.is_some())?;
-    let names: Vec<&str> = scene.output.probes.iter().map(|probe| probe.name.as_str()).collect();
-    for (i, probe) in scene.output.grain_probes.iter().enumerate() {
-        let fresh = !names.contains(&probe.name.as_str());
-        at.ensure(fresh, &format!("output.grain_probes[{i}].name"), || SceneProblem::DuplicateName {
-            name: probe.name.clone(),
-        })?;
-    }
+    dry::check_in_fluid(&view)?;
+    super::output::check_grains(at, scene)?;
     coupling(at, scene)
 }
 

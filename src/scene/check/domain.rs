@@ -1,8 +1,8 @@
 //! Checks of the box.
 
-use super::{Checker, SceneError, SceneProblem};
 use crate::geometry::Axis;
-use crate::scene::{Boundaries, Boundary, Domain, FACE_KEYS};
+use crate::scene::checker::Checker;
+use crate::scene::{Boundaries, Boundary, Domain, FACE_KEYS, SceneError, SceneProblem};
 
 /// Largest number of cells: cell indices are 32-bit, the last one is kept free.
 const MAX_CELLS: u64 = u32::MAX as u64;

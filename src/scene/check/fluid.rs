@@ -1,9 +1,11 @@
 //! Checks of the fluid, its layers, the solids and gravity.
 
-use super::{Checker, SceneError, SceneProblem};
 use crate::geometry::Axis;
-use crate::scene::{BodyForce, Boundary, Domain, Gravity, InitialVelocity, Rheology, Scene};
+use crate::scene::checker::Checker;
 use crate::vector::norm;
+use crate::scene::{
+    BodyForce, Boundary, Domain, Gravity, InitialVelocity, KeyRule, Scene, SceneError, SceneProblem,
+};
 
 /// Solids and layers are numbered in one byte, 0 being fluid (or the first fluid).
 const MAX_ENTRIES: usize = 255;
@@ -39,7 +41,7 @@ pub(in crate::scene) fn check_gravity(at: &Checker, gravity: &Gravity) -> Result
         (direction, slope) => {
             let found = if direction.is_some() && slope.is_some() { OF.to_vec() } else { Vec::new() };
             let because = "both say where gravity points";
-            at.fail("gravity", SceneProblem::KeyCount { found, of: OF, rule: "exactly one", because })
+            at.fail("gravity", SceneProblem::KeyCount { found, of: OF, rule: KeyRule::ExactlyOne, because })
         }
     }
 }
@@ -50,7 +52,7 @@ pub(super) fn check_fluid(at: &Checker, scene: &Scene) -> Result<(), SceneError>
     let fluid = &scene.fluid;
     let density = fluid.density_kg_per_m3;
     at.positive("fluid.density_kg_per_m3", density, "kg/m³", "it is the mass unit", "1000 for water")?;
-    rheology(at, "fluid.rheology", &fluid.rheology)?;
+    fluid.rheology.check(at, "fluid.rheology")?;
     match fluid.body_force {
         Some(BodyForce::Oscillating { frequency_hz, .. }) => {
             let path = "fluid.body_force.oscillating.frequency_hz";
@@ -69,57 +71,6 @@ pub(super) fn check_fluid(at: &Checker, scene: &Scene) -> Result<(), SceneError>
     initial_velocity(at, &scene.domain, &fluid.initial_velocity)
 }
 
-fn rheology(at: &Checker, path: &str, rheology: &Rheology) -> Result<(), SceneError> {
-    let viscosity = |key: &str, mu: f64| {
-        let way_out = "1e-3 for water; there is no inviscid flow here";
-        at.positive(&format!("{path}.{key}"), mu, "Pa s", "τ − ½ = 3ν must be > 0 [L6]", way_out)
-    };
-    let yield_stress = |key: &str, sigma0: f64| {
-        let way_out = "0 for a fluid without yield stress";
-        at.not_negative(&format!("{path}.{key}.yield_stress_pa"), sigma0, "Pa", "σ = σ0 + … [Y3]", way_out)
-    };
-    let power = |key: &str, k: f64, n: f64| {
-        let consistency = format!("{path}.{key}.consistency_pa_s_n");
-        let way_out = "the stress at a shear rate of 1/s, less the yield stress";
-        at.positive(&consistency, k, "Pa sⁿ", "stress grows with shear rate [Y3]", way_out)?;
-        let index = format!("{path}.{key}.flow_index");
-        at.ensure((0.05..=5.0).contains(&n), &index, || SceneProblem::OutOfRange {
-            found: n,
-            unit: "",
-            low: 0.05,
-            high: 5.0,
-            because: "σ = σ0 + K γ̇ⁿ must grow with γ̇ for [Y3] to have one solution",
-            way_out: "1 for a Bingham or Newtonian fluid, below 1 for shear thinning",
-        })
-    };
-    match *rheology {
-        Rheology::Newtonian { viscosity_pa_s } => viscosity("newtonian.viscosity_pa_s", viscosity_pa_s),
-        Rheology::Bingham { yield_stress_pa, plastic_viscosity_pa_s } => {
-            yield_stress("bingham", yield_stress_pa)?;
-            viscosity("bingham.plastic_viscosity_pa_s", plastic_viscosity_pa_s)
-        }
-        Rheology::HerschelBulkley { yield_stress_pa, consistency_pa_s_n, flow_index } => {
-            yield_stress("herschel_bulkley", yield_stress_pa)?;
-            power("herschel_bulkley", consistency_pa_s_n, flow_index)
-        }
-        Rheology::PowerLaw { consistency_pa_s_n, flow_index } => {
-            power("power_law", consistency_pa_s_n, flow_index)
-        }
-        Rheology::Papanastasiou { yield_stress_pa, consistency_pa_s_n, flow_index, growth_s } => {
-            yield_stress("papanastasiou", yield_stress_pa)?;
-            power("papanastasiou", consistency_pa_s_n, flow_index)?;
-            let path = format!("{path}.papanastasiou.growth_s");
-            at.positive(
-                &path,
-                growth_s,
-                "s",
-                "the stress grows over it",
-                "`herschel_bulkley` for a true yield stress",
-            )
-        }
-    }
-}
-
 pub(super) fn check_layers(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
     let found = scene.layers.len();
     at.ensure(found < MAX_ENTRIES, "layers", || SceneProblem::TooMany { found, max: MAX_ENTRIES - 1 })?;
@@ -128,7 +79,7 @@ pub(super) fn check_layers(at: &Checker, scene: &Scene) -> Result<(), SceneError
         let path = format!("layers[{i}]");
         at.name(&format!("{path}.name"), &layer.name, &mut names)?;
         at.shape(&format!("{path}.shape"), &layer.shape, scene.domain.size_m, false)?;
-        rheology(at, &format!("{path}.rheology"), &layer.rheology)?;
+        layer.rheology.check(at, &format!("{path}.rheology"))?;
     }
     Ok(())
 }

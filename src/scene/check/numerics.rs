@@ -1,8 +1,9 @@
 //! Checks of numerical choices and of when to stop.
 
-use super::{Checker, SceneError, SceneProblem};
+use crate::scene::checker::Checker;
 use crate::scene::{
-    Arrested, ClampLimits, Collision, Numerics, Operator, PrecisionChoice, Stop, YieldChoice,
+    Arrested, ClampLimits, Collision, KeyRule, Numerics, PrecisionChoice, SceneError, SceneProblem, Stop,
+    YieldChoice,
 };
 
 const STEP_KEYS: &[&str] = &["time_step_s", "relaxation_time", "target_mach"];
@@ -36,7 +37,7 @@ fn time_step(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {
     at.ensure(found.len() <= 1, "numerics", || SceneProblem::KeyCount {
         found: found.clone(),
         of: STEP_KEYS,
-        rule: "at most one",
+        rule: KeyRule::AtMostOne,
         because: "each of them fixes the time step, τ = ½ + 3μΔt/(ρΔx²) [L6]",
     })?;
     if let Some(dt) = numerics.time_step_s {
@@ -72,7 +73,7 @@ fn time_step(at: &Checker, numerics: &Numerics) -> Result<(), SceneError> {
 
 fn collision(at: &Checker, collision: &Collision) -> Result<(), SceneError> {
     let path = "numerics.collision";
-    let one_rate = matches!(collision.operator, Some(Operator::Bgk | Operator::Regularised));
+    let one_rate = collision.operator.is_some_and(|operator| !operator.has_odd_rate());
     let given =
         [("magic", collision.magic), ("floor", collision.floor), ("lowered_below", collision.lowered_below)];
     for (key, value) in given {
@@ -123,7 +124,7 @@ fn clamp(at: &Checker, path: &str, limits: &ClampLimits) -> Result<(), SceneErro
                 [limits.tau_min, limits.tau_max, limits.viscosity_min_pa_s, limits.viscosity_max_pa_s];
             let found = of.iter().zip(given).filter_map(|(key, v)| v.map(|_| *key)).collect();
             let because = "a clamp needs both its limits, in one kind of unit [Y4]";
-            at.fail(path, SceneProblem::KeyCount { found, of, rule: "one min-max pair", because })
+            at.fail(path, SceneProblem::KeyCount { found, of, rule: KeyRule::OnePair, because })
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Checks of the initial fluid and of what goes only with a free surface, or not with one.
 
-use super::{Checker, SceneError, SceneProblem};
 use crate::geometry::Axis;
-use crate::scene::{Boundary, FACE_KEYS, FillLevel, InitialVelocity, Scene};
+use crate::scene::checker::Checker;
+use crate::scene::{Boundary, FACE_KEYS, FillLevel, InitialVelocity, Scene, SceneError, SceneProblem};
 
 pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
     let Some(initial) = &scene.fluid.initial else { return without(at, scene) };

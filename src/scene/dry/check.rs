@@ -1,11 +1,16 @@
 //! Value checks of scenes without fluid. The first problem found is reported; order is that of the file.
 
 use super::check_place::placement;
-use super::{ClumpMembers, Contact, ContactLaw, DryScene, GrainMeasure, GrainSolid, Needs, Target};
+use super::{ClumpMembers, Contact, ContactLaw, DryScene, GrainSolid};
 use crate::geometry::{Axis, Shape};
-use crate::scene::check::{Checker, boundaries, cadence, check_arrested, check_gravity};
-use crate::scene::nearest::nearest;
-use crate::scene::{FACE_KEYS, SceneError, SceneProblem};
+use crate::scene::check::domain::boundaries;
+use crate::scene::check::fluid::check_gravity;
+use crate::scene::check::numerics::check_arrested;
+use crate::scene::check::output::cadence;
+use crate::scene::check::probes::{Place, known, probes};
+use crate::scene::checker::Checker;
+use crate::scene::probe::Subject;
+use crate::scene::{KeyRule, SceneError, SceneProblem};
 
 /// Checks every value that can be judged without placing grains.
 pub fn check(scene: &DryScene) -> Result<(), SceneError> {
@@ -28,13 +33,12 @@ pub fn check(scene: &DryScene) -> Result<(), SceneError> {
     if let Some(arrested) = scene.stop.arrested {
         check_arrested(&at, &arrested, end)?;
     }
-    let place = Place { probes: "output.probes", fluid: false, surface: false };
     cadence(&at, "output.series", scene.output.series, end)?;
-    output(&at, scene, &place)
+    output(&at, scene)
 }
 
-/// Checks what a scene with fluid, seen as its grains see it, says about them; `surface`: it is free.
-pub fn check_in_fluid(scene: &DryScene, surface: bool) -> Result<(), SceneError> {
+/// Checks what a scene with fluid, seen as its grains see it, says about them, but for outputs.
+pub fn check_in_fluid(scene: &DryScene) -> Result<(), SceneError> {
     let at = Checker { file: &scene.file };
     materials(&at, scene)?;
     clumps(&at, scene)?;
@@ -51,14 +55,7 @@ pub fn check_in_fluid(scene: &DryScene, surface: bool) -> Result<(), SceneError>
             way_out: "several solids, each of them one of these",
         })?;
     }
-    output(&at, scene, &Place { probes: "output.grain_probes", fluid: true, surface })
-}
-
-/// Where probes are, and what there is for them.
-struct Place {
-    probes: &'static str,
-    fluid: bool,
-    surface: bool,
+    Ok(())
 }
 
 const TOUCHABLE: &str = "`box`, `cylinder`, `sphere`, `half_space`, `cone`, `polygon`, `heightfield`, and a `union` of those \
@@ -79,7 +76,7 @@ fn domain(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
 
 fn materials(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
     let list = &scene.grains.materials;
-    some(at, "grains.materials", list.len(), "a material")?;
+    at.some("grains.materials", list.len(), "a material")?;
     let mut names = Vec::new();
     for (i, m) in list.iter().enumerate() {
         let path = |key: &str| format!("grains.materials[{i}].{key}");
@@ -164,7 +161,7 @@ fn clumps(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
                 })?;
             }
             ClumpMembers::Spheres(members) => {
-                some(at, &format!("{path}.spheres"), members.len(), "a sphere")?;
+                at.some(&format!("{path}.spheres"), members.len(), "a sphere")?;
                 for (k, member) in members.iter().enumerate() {
                     let path = format!("{path}.spheres[{k}].radius_m");
                     at.positive(&path, member.radius_m, "m", "it is a radius", "remove the sphere")?;
@@ -176,7 +173,7 @@ fn clumps(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
 }
 
 fn sets(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
-    some(at, "grains.sets", scene.grains.sets.len(), "a set of grains")?;
+    at.some("grains.sets", scene.grains.sets.len(), "a set of grains")?;
     let materials: Vec<String> = scene.grains.materials.iter().map(|m| m.name.clone()).collect();
     let clumps: Vec<String> = scene.grains.clumps.iter().map(|c| c.name.clone()).collect();
     let mut names = Vec::new();
@@ -262,7 +259,7 @@ fn body(at: &Checker, i: usize, solid: &GrainSolid, size_m: [f64; 3]) -> Result<
             let because = "both say where the wall is";
             at.fail(
                 format!("solids[{i}]"),
-                SceneProblem::KeyCount { found, of: BODY, rule: "exactly one", because },
+                SceneProblem::KeyCount { found, of: BODY, rule: KeyRule::ExactlyOne, because },
             )
         }
     }
@@ -279,102 +276,20 @@ fn touchable(shape: &Shape, inverted: bool) -> bool {
     }
 }
 
-fn output(at: &Checker, scene: &DryScene, place: &Place) -> Result<(), SceneError> {
-    let end = scene.stop.end_time_s;
-    cadence(at, "output.grains", scene.output.grains, end)?;
-    let sets: Vec<String> = scene.grains.sets.iter().map(|s| s.name.clone()).collect();
-    let solids: Vec<String> = scene.solids.iter().map(|s| s.name.clone()).collect();
-    let mut names = Vec::new();
-    for (i, probe) in scene.output.probes.iter().enumerate() {
-        let path = |key: &str| format!("{}[{i}].{key}", place.probes);
-        at.name(&path("name"), &probe.name, &mut names)?;
-        let needs = probe.measure.needs();
-        let there = match needs {
-            Needs::Grains => true,
-            Needs::Fluid => place.fluid,
-            Needs::Surface => place.surface,
-        };
-        at.ensure(there, &path("measure"), || match needs {
-            Needs::Surface if place.fluid => {
-                SceneProblem::NeedsSurface { what: "this measure", otherwise: "remove the probe" }
-            }
-            _ => SceneProblem::NeedsFluid,
-        })?;
-        match &probe.measure {
-            GrainMeasure::Grain { set, .. } => known(at, &path("measure.grain.set"), "set", set, &sets)?,
-            GrainMeasure::FluidForce { set, .. } => {
-                known(at, &path("measure.fluid_force.set"), "set", set, &sets)?;
-            }
-            GrainMeasure::Submergence { set, .. } => {
-                known(at, &path("measure.submergence.set"), "set", set, &sets)?;
-            }
-            GrainMeasure::SetSpeed { set } => known(at, &path("measure.set_speed.set"), "set", set, &sets)?,
-            GrainMeasure::Segregation { classes, .. } => {
-                let (found, low, high) = (f64::from(classes.unwrap_or(3)), 2.0, 10.0);
-                at.ensure((low..=high).contains(&found), &path("measure.segregation.classes"), || {
-                    SceneProblem::OutOfRange {
-                        found,
-                        unit: "",
-                        low,
-                        high,
-                        because: "sizes are compared with each other, and each class is a column",
-                        way_out: "leave it out for 3",
-                    }
-                })?;
-            }
-            GrainMeasure::GrainFront { share, .. } => {
-                let (found, low, high) = (share.unwrap_or(0.02), 0.0, 0.5);
-                at.ensure(found >= low && found < high, &path("measure.grain_front.share"), || {
-                    SceneProblem::OutOfRange {
-                        found,
-                        unit: "",
-                        low,
-                        high,
-                        because: "0.5 excluded: beyond it there is no front",
-                        way_out: "leave it out for 0.02",
-                    }
-                })?;
-            }
-            GrainMeasure::Flux { normal, at_m } => {
-                at.position(&path("measure.flux.at_m"), *normal, *at_m, scene.domain.size_m)?;
-            }
-            GrainMeasure::Force { on: Target::Solid(name) } => {
-                known(at, &path("measure.force.on.solid"), "solid", name, &solids)?;
-            }
-            GrainMeasure::Force { on: Target::Face(name) } => {
-                let faces: Vec<String> = FACE_KEYS.iter().flatten().map(|key| (*key).to_owned()).collect();
-                known(at, &path("measure.force.on.face"), "face", name, &faces)?;
-            }
-            GrainMeasure::Pile { along, up, share } => {
-                let up = up.unwrap_or(Axis::Z);
-                at.ensure(up != *along, &path("measure.pile.along"), || SceneProblem::AcrossBed {
-                    axis: along.letter(),
-                })?;
-                let (found, low, high) = (share.unwrap_or(0.005), 0.0, 0.5);
-                at.ensure(found >= low && found < high, &path("measure.pile.share"), || {
-                    SceneProblem::OutOfRange {
-                        found,
-                        unit: "",
-                        low,
-                        high,
-                        because: "0.5 excluded: beyond it nothing is left",
-                        way_out: "leave it out for 0.005",
-                    }
-                })?;
-            }
-            GrainMeasure::KineticEnergy
-            | GrainMeasure::MaxSpeed
-            | GrainMeasure::Mass
-            | GrainMeasure::Contacts
-            | GrainMeasure::Energies
-            | GrainMeasure::Momentum => {}
-        }
-    }
-    Ok(())
-}
-
-pub(super) fn some(at: &Checker, path: &str, count: usize, what: &'static str) -> Result<(), SceneError> {
-    at.ensure(count > 0, path, || SceneProblem::EmptyList { what })
+fn output(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
+    cadence(at, "output.grains", scene.output.grains, scene.stop.end_time_s)?;
+    let place = Place {
+        path: "output.probes",
+        subject: Subject::Grains,
+        size_m: scene.domain.size_m,
+        fluid: false,
+        surface: false,
+        grains: true,
+        up: None,
+        solids: scene.solids.iter().map(|s| s.name.clone()).collect(),
+        sets: scene.grains.sets.iter().map(|s| s.name.clone()).collect(),
+    };
+    probes(at, &scene.output.probes, &place, &mut Vec::new())
 }
 
 fn optional_name(
@@ -385,19 +300,4 @@ fn optional_name(
     names: &[String],
 ) -> Result<(), SceneError> {
     name.map_or(Ok(()), |name| known(at, path, kind, name, names))
-}
-
-fn known(
-    at: &Checker,
-    path: &str,
-    kind: &'static str,
-    name: &str,
-    names: &[String],
-) -> Result<(), SceneError> {
-    at.ensure(names.iter().any(|other| other == name), path, || SceneProblem::UnknownName {
-        kind,
-        name: name.to_owned(),
-        nearest: nearest(name, names).map(str::to_owned),
-        names: names.to_vec(),
-    })
 }

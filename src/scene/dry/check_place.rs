@@ -1,10 +1,9 @@
 //! Checks of the places and sizes of grains.
 
-use super::check::some;
 use super::{GrainSet, Placement, SizeChoice};
 use crate::geometry::Shape;
-use crate::scene::check::Checker;
-use crate::scene::{SceneError, SceneProblem};
+use crate::scene::checker::Checker;
+use crate::scene::{KeyRule, SceneError, SceneProblem};
 
 /// Checks where a set is, and how large its grains are.
 pub(super) fn placement(
@@ -16,7 +15,7 @@ pub(super) fn placement(
     let radius = |path: &str, r: f64| at.positive(path, r, "m", "it is a radius", "a radius > 0");
     match &set.place {
         Placement::List(list) => {
-            some(at, &format!("{path}.list"), list.len(), "a grain")?;
+            at.some(&format!("{path}.list"), list.len(), "a grain")?;
             for (k, grain) in list.iter().enumerate() {
                 let path = |key: &str| format!("{path}.list[{k}].{key}");
                 radius(&path("radius_m"), grain.radius_m)?;
@@ -42,29 +41,7 @@ pub(super) fn placement(
         Placement::Random { region, count, solid_fraction, sizes, gap_m, .. } => {
             let path = format!("{path}.random");
             self::region(at, &format!("{path}.region"), region, size_m)?;
-            match (count, solid_fraction) {
-                (Some(count), None) => at.ensure(*count > 0, &format!("{path}.count"), || {
-                    let (found, unit, because) = (0.0, "", "else the set is empty");
-                    SceneProblem::NotPositive { found, unit, because, way_out: "remove the set" }
-                })?,
-                (None, Some(share)) => {
-                    let (found, low, high) = (*share, 0.0, 0.5);
-                    let path = format!("{path}.solid_fraction");
-                    at.ensure(found > low && found <= high, &path, || SceneProblem::OutOfRange {
-                        found,
-                        unit: "",
-                        low,
-                        high,
-                        because: "0 excluded; random addition of equal spheres jams near 0.38, of mixtures above",
-                        way_out: "let a thinner packing settle, or use a lattice",
-                    })?;
-                }
-                (count, share) => {
-                    let found = if count.is_some() && share.is_some() { OF.to_vec() } else { Vec::new() };
-                    let because = "both say how many grains there are";
-                    at.fail(&path, SceneProblem::KeyCount { found, of: OF, rule: "exactly one", because })?;
-                }
-            }
+            amount(at, &path, *count, *solid_fraction)?;
             self::sizes(at, &format!("{path}.sizes"), sizes)?;
             at.not_negative(&format!("{path}.gap_m"), *gap_m, "m", "it is a distance", "0 for none")
         }
@@ -73,6 +50,33 @@ pub(super) fn placement(
 }
 
 const OF: &[&str] = &["count", "solid_fraction"];
+
+/// How many grains a random packing has.
+fn amount(at: &Checker, path: &str, count: Option<u64>, share: Option<f64>) -> Result<(), SceneError> {
+    match (count, share) {
+        (Some(count), None) => at.ensure(count > 0, &format!("{path}.count"), || {
+            let (found, unit, because) = (0.0, "", "else the set is empty");
+            SceneProblem::NotPositive { found, unit, because, way_out: "remove the set" }
+        }),
+        (None, Some(found)) => {
+            let (low, high) = (0.0, 0.5);
+            let path = format!("{path}.solid_fraction");
+            at.ensure(found > low && found <= high, &path, || SceneProblem::OutOfRange {
+                found,
+                unit: "",
+                low,
+                high,
+                because: "0 excluded; random addition of equal spheres jams near 0.38, of mixtures above",
+                way_out: "let a thinner packing settle, or use a lattice",
+            })
+        }
+        (count, share) => {
+            let found = if count.is_some() && share.is_some() { OF.to_vec() } else { Vec::new() };
+            let (rule, because) = (KeyRule::ExactlyOne, "both say how many grains there are");
+            at.fail(path, SceneProblem::KeyCount { found, of: OF, rule, because })
+        }
+    }
+}
 
 fn region(at: &Checker, path: &str, region: &Shape, size_m: [f64; 3]) -> Result<(), SceneError> {
     at.shape(path, region, size_m, false)?;

@@ -52,7 +52,7 @@ pub enum ContactLaw {
         /// Restitution that collisions have, above 0, at most 1.
         restitution: f64,
     },
-    /// The same, with the coefficient of the law.
+    /// Hertz with damping that makes restitution independent of speed, by the coefficient of the law.
     TsujiDamping {
         /// α ≥ 0.
         alpha: f64,

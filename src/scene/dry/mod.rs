@@ -2,6 +2,7 @@
 //!
 //! Same units, axes, boundaries and gravity as scenes with fluid; there are no cells, so there is no spacing.
 
+mod build;
 mod check;
 mod check_place;
 mod contact;
@@ -16,10 +17,10 @@ use serde::{Deserialize, Serialize};
 use super::{Boundaries, Coupling, Gravity};
 use crate::geometry::Shape;
 
+pub use build::DrySceneBuilder;
 pub(super) use check::{check, check_in_fluid};
 pub use contact::{Contact, ContactLaw, GrainMaterial, PairContact};
-pub(super) use output::Needs;
-pub use output::{GrainMeasure, GrainOutput, GrainProbe, GrainStop, Target};
+pub use output::{GrainOutput, GrainStop};
 pub use place::{
     ClumpMember, ClumpMembers, ClumpShape, GrainAt, GrainSet, LatticeKind, Orientations, Placement,
     SizeChoice,
@@ -140,7 +141,8 @@ pub enum IntegratorChoice {
     Verlet,
     /// Gear's predictor-corrector with six values and first coefficient 3/16, for forces that depend on velocity.
     Gear,
-    /// The same with first coefficient 3/20, for forces that do not.
+    /// Gear's predictor-corrector with six values and first coefficient 3/20, for forces that do not depend on
+    /// velocity.
     GearConservative,
 }
 

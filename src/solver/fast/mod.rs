@@ -9,6 +9,7 @@ pub mod kernel;
 pub mod layout;
 pub mod links;
 pub mod memory;
+pub mod predict;
 pub mod registers;
 mod report;
 pub mod rim;
@@ -26,6 +27,7 @@ use crate::collision::{CentralMoment, CollisionChoice};
 use crate::setup::{Precision, Setup};
 use crate::solver::compiled::{Compiled, with_newtonian_loop, with_own_loop, with_shared_loop};
 use crate::solver::physics::Physics;
+use crate::solver::layout::Layout;
 use crate::solver::run::{Backend, Run, StartError};
 use instructions::{Chosen, Instructions, Passes};
 pub use run::FastRun;
@@ -40,6 +42,10 @@ pub struct Fast {
 impl Backend for Fast {
     fn name(&self) -> &'static str {
         "fast"
+    }
+
+    fn layout(&self) -> Layout {
+        Layout::Blocks
     }
 
     fn start(&self, setup: &Setup) -> Result<Box<dyn Run>, StartError> {

@@ -8,6 +8,7 @@
 mod grains;
 mod passes;
 mod report;
+pub mod memory;
 mod run;
 mod surface;
 

@@ -1,5 +1,7 @@
 //! The mudflow of 001 against its retaining wall, from the scene in `scenes/show`.
 
+use std::path::Path;
+
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -47,7 +49,8 @@ fn planned(spacing: f64) -> Result<Plan, VerifyError> {
         }
     }
     let text = serde_json::to_string(&value).map_err(broken)?;
-    let scene = scene::from_json(&text, "mudflow_wall.json").map_err(|e| failed("the mudflow scene", e))?;
+    let scene = scene::flow_from_json(&text, "mudflow_wall.json", Path::new("."))
+        .map_err(|e| failed("the mudflow scene", e))?;
     Plan::new(&scene).map_err(|e| failed("the plan of the mudflow", e))
 }
 

@@ -264,7 +264,7 @@ fn guard(_: &dyn Backend, factor: f64) -> Result<Sample, VerifyError> {
                 Ok(()) => factor < 50.0,
                 Err(DemError::Overlap { pair, share, .. }) => {
                     largest = largest.max(share);
-                    factor > 50.0 && pair == named
+                    factor > 50.0 && pair.to_string() == named
                 }
                 Err(_) => false,
             };

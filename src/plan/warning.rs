@@ -1,0 +1,236 @@
+//! What to think about before running.
+
+use serde::{Serialize, Serializer};
+
+use super::text::short;
+use crate::scene::Operator;
+
+/// Least density of a grain over that of the fluid without a warning.
+pub(super) const LOW_DENSITY_RATIO: f64 = 0.5;
+/// Gap, cells, down to which the friction of lubrication must be had in full.
+pub(super) const LUBRICATED_GAP: f64 = 0.1;
+
+/// A warning of a plan; its text is what `lahar plan` prints and what its JSON holds.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Warning {
+    /// Compressibility.
+    #[error("Mach number {mach:.3}: errors of order Ma² = {:.1} %", 100.0 * mach * mach)]
+    Mach {
+        /// Mach number.
+        mach: f64,
+    },
+    /// τ near ½.
+    #[error(
+        "plastic relaxation time {tau:.4} is below 0.55: a finer spacing than {spacing_m} m would be more accurate"
+    )]
+    TauSmall {
+        /// τ of the plastic viscosity.
+        tau: f64,
+        /// Cell size, m.
+        spacing_m: f64,
+    },
+    /// τ large.
+    #[error("plastic relaxation time {tau:.2} is above 2: transients are smeared over steps")]
+    TauLarge {
+        /// τ of the plastic viscosity.
+        tau: f64,
+    },
+    /// A narrow gap.
+    #[error("only {cells} cells between walls: errors of several per cent")]
+    FewCells {
+        /// Cells between walls.
+        cells: f64,
+    },
+    /// Near the limit of stability.
+    #[error("less than a factor of 2 below the von Neumann limit")]
+    NearlyUnstable,
+    /// A plug that slips.
+    #[error(
+        "an unyielded solid held by walls slips {slip_m_per_s:.2e} m/s, more than 1e-3 of the flow; a smaller time step \
+         or `viscosity_independent` walls reduce it"
+    )]
+    PlugSlips {
+        /// Speed of the slip, m/s.
+        slip_m_per_s: f64,
+    },
+    /// A plug that moves on.
+    #[error(
+        "`{operator}` cannot bring a moving plug to rest with the exact yield stress; `{}` can [K3]",
+        Operator::CentralMoment
+    )]
+    PlugMovesOn {
+        /// The operator.
+        operator: Operator,
+    },
+    /// Rounding.
+    #[error(
+        "rounding in `{precision}` can change velocities by up to {:.1} %; `double` cannot",
+        100.0 * share
+    )]
+    Rounding {
+        /// Name of the precision.
+        precision: &'static str,
+        /// Share of the velocity.
+        share: f64,
+    },
+    /// Nothing to compute.
+    #[error("nothing is expected to move: no force, wall or initial flow overcomes the yield stress")]
+    NothingMoves,
+    /// A thin film.
+    #[error(
+        "the fluid is at most {cells:.1} cells deep at time 0: a film of less than 4 cells is off by several per cent"
+    )]
+    Shallow {
+        /// Depth, cells.
+        cells: f64,
+    },
+    /// A thin deposit.
+    #[error(
+        "the fluid comes to rest {cells:.1} cells thick on this slope; below 4 cells the deposit is not resolved"
+    )]
+    ThinDeposit {
+        /// Thickness, cells.
+        cells: f64,
+    },
+    /// More mass than drawn.
+    #[error(
+        "the deepest column starts {:.2} % heavier than drawn, compressed by its weight, and the flow gains that much \
+         volume; `\"pressure\": \"settled\"` in `fluid.initial` starts with the mass that was drawn",
+        100.0 * share
+    )]
+    Compressed {
+        /// Share of the mass.
+        share: f64,
+    },
+    /// Small grains.
+    #[error(
+        "the smallest grain has a radius of {} cells: expect its drag to be off by {:.1} %; 2.2 cells give 5 %, 3.35 \
+         cells 1.2 %, 5 cells 0.4 %",
+        short(*cells),
+        100.0 * drag_error
+    )]
+    SmallGrain {
+        /// Radius, cells.
+        cells: f64,
+        /// Expected error of the drag, relative.
+        drag_error: f64,
+    },
+    /// Light grains.
+    #[error(
+        "a grain has {} of the fluid's density: below {} the added mass of the fluid outweighs it, and its motion rings \
+         for some steps",
+        short(*ratio),
+        LOW_DENSITY_RATIO
+    )]
+    LightGrain {
+        /// Density over that of the fluid.
+        ratio: f64,
+    },
+    /// Friction that the time step limits.
+    #[error("lubrication is limited by the time step below {} cells", LUBRICATED_GAP)]
+    LubricationLimited,
+    /// Fast grains.
+    #[error("grains move up to {} cells per step: errors of several per cent", short(*cells_per_step))]
+    FastGrains {
+        /// Speed, cells per step.
+        cells_per_step: f64,
+    },
+    /// Fast grains at a small τ.
+    #[error(
+        "grains move up to {} cells per step at a relaxation time of {tau:.3}: below {below} with more than 0.05 cells \
+         per step the flow around them blows up with these rules; {way_out}",
+        short(*cells_per_step)
+    )]
+    GrainsUnstable {
+        /// Speed, cells per step.
+        cells_per_step: f64,
+        /// Least τ expected.
+        tau: f64,
+        /// τ below which it was seen.
+        below: f64,
+        /// What helps.
+        way_out: &'static str,
+    },
+    /// An impact that stops the run.
+    #[error(
+        "an impact at the design speed overlaps by {} % of the radius, and runs stop at {} %: stiffer material, or slower \
+         grains",
+        short(100.0 * overlap),
+        short(100.0 * limit)
+    )]
+    ImpactStops {
+        /// Share of the radius.
+        overlap: f64,
+        /// Share at which a run is stopped.
+        limit: f64,
+    },
+    /// A deep impact.
+    #[error(
+        "an impact at the design speed overlaps by {} % of the radius; contact laws are for small overlaps",
+        short(100.0 * overlap)
+    )]
+    ImpactDeep {
+        /// Share of the radius.
+        overlap: f64,
+    },
+    /// A pile too heavy for its material.
+    #[error(
+        "grains at the bottom of a pile would overlap by {} % of the radius: the material is soft for this load",
+        short(100.0 * overlap)
+    )]
+    PileDeep {
+        /// Share of the radius.
+        overlap: f64,
+    },
+    /// A design speed below what is expected.
+    #[error(
+        "the design speed is {} m/s, but grains may reach {} m/s",
+        short(*design_m_per_s),
+        short(*expected_m_per_s)
+    )]
+    DesignSpeed {
+        /// As given, m/s.
+        design_m_per_s: f64,
+        /// As estimated, m/s.
+        expected_m_per_s: f64,
+    },
+    /// Few steps in a contact.
+    #[error("{steps:.1} steps in the shortest contact: restitution is off by about a percent; 50 are usual")]
+    FewSteps {
+        /// Steps in the shortest contact.
+        steps: f64,
+    },
+    /// Nothing holds the grains. In a fluid its drag does.
+    #[error("gravity pulls along a periodic axis and nothing holds the grains: they fall for ever")]
+    FallForEver,
+    /// A long run of grains by themselves.
+    #[error("this takes about {days:.0} days on one thread")]
+    Days {
+        /// Days.
+        days: f64,
+    },
+    /// A very soft material.
+    #[error("Young's modulus below 1e5 Pa is softer than rubber")]
+    Soft,
+}
+
+impl Warning {
+    /// Whether a warning about grains by themselves also holds for grains in a fluid, which holds them and has a cost
+    /// of its own.
+    #[must_use]
+    pub const fn holds_in_a_fluid(&self) -> bool {
+        !matches!(self, Self::FallForEver | Self::Days { .. })
+    }
+}
+
+impl Serialize for Warning {
+    /// Its text.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+/// The warnings whose condition holds.
+pub(super) fn holding(warnings: impl IntoIterator<Item = (bool, Warning)>) -> Vec<Warning> {
+    warnings.into_iter().filter_map(|(holds, warning)| holds.then_some(warning)).collect()
+}

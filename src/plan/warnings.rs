@@ -1,0 +1,63 @@
+//! The warnings of a plan for a scene with fluid.
+
+use super::figures::Basis;
+use super::numbers::Numbers;
+use super::warning::{Warning, holding};
+use crate::scene::InitialPressure;
+use crate::setup::{Precision, YieldTreatment};
+
+/// Excess mass worth a warning: 0.4 % of the volume moves the front of a long thin flow by as much.
+const LEAST_EXCESS: f64 = 4e-3;
+
+/// All of them, in the order in which they are printed.
+pub(super) fn warnings(n: &Numbers, basis: &Basis) -> Vec<Warning> {
+    let mut all = of_the_flow(n);
+    all.extend(of_the_scheme(n, basis));
+    all.extend(of_the_surface(n));
+    all.extend(of_the_weight(basis));
+    all
+}
+
+fn of_the_flow(n: &Numbers) -> Vec<Warning> {
+    let tau = n.tau_plastic;
+    holding([
+        (n.mach > 0.174, Warning::Mach { mach: n.mach }),
+        (tau < 0.55, Warning::TauSmall { tau, spacing_m: n.spacing_m }),
+        (tau > 2.0, Warning::TauLarge { tau }),
+        (n.gap_cells < 8.0 && n.depth_cells.is_none(), Warning::FewCells { cells: n.gap_cells }),
+        (n.stability_margin.is_some_and(|margin| margin < 2.0), Warning::NearlyUnstable),
+    ])
+}
+
+fn of_the_scheme(n: &Numbers, basis: &Basis) -> Vec<Warning> {
+    let slip = n.plug_slip_m_per_s;
+    let slips = slip > 1e-3 * n.reference_velocity_m_per_s && slip.is_finite();
+    let moves_on =
+        basis.facts.any_plug() && basis.setup.yielding == YieldTreatment::Exact && !n.operator.stops_plugs();
+    let rounds = basis.setup.precision != Precision::Double && n.rounding_floor > 1e-3;
+    holding([
+        (slips, Warning::PlugSlips { slip_m_per_s: slip }),
+        (moves_on, Warning::PlugMovesOn { operator: n.operator }),
+        (rounds, Warning::Rounding { precision: n.precision, share: n.rounding_floor }),
+        (n.reference_velocity_m_per_s == 0.0, Warning::NothingMoves),
+    ])
+}
+
+fn of_the_surface(n: &Numbers) -> Vec<Warning> {
+    let Some(depth) = n.depth_cells else { return Vec::new() };
+    let at_rest = n.arrest_thickness_m.map_or(f64::INFINITY, |thickness| thickness / n.spacing_m);
+    holding([
+        (depth < 4.0, Warning::Shallow { cells: depth }),
+        (at_rest < 4.0, Warning::ThinDeposit { cells: at_rest }),
+    ])
+}
+
+/// By how much the fluid is heavier than drawn, where it will flow away.
+fn of_the_weight(basis: &Basis) -> Option<Warning> {
+    let pool = basis.pool.filter(|pool| !pool.level)?;
+    let initial = basis.facts.scene.fluid.initial.as_ref();
+    let hydrostatic = initial.is_some_and(|initial| initial.pressure == InitialPressure::Hydrostatic);
+    let weight = basis.facts.forces.extremes[0][pool.up.index()].abs();
+    let share = 1.5 * basis.units.force_to_lattice(weight) * basis.units.length_to_lattice(pool.depth);
+    (hydrostatic && share > LEAST_EXCESS).then_some(Warning::Compressed { share })
+}

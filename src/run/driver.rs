@@ -1,0 +1,306 @@
+//! The one loop of all runs: step until something is due, look, write, see whether it is over.
+
+use std::time::Instant;
+
+use super::error::RunError;
+use super::measure::quantity::Quantity;
+use super::recorder::Recorder;
+use super::schedule::{Cadences, Schedule};
+use super::stop::StopReport;
+use super::summary::{Ended, Parts, Summary};
+use crate::output::OutputError;
+use crate::output::progress::Progress;
+
+/// What a run moves: a fluid, grains, or both.
+pub(super) trait Experiment {
+    /// Steps taken so far.
+    fn step(&self) -> u64;
+
+    /// Time since the start, s.
+    fn time_s(&self) -> f64;
+
+    /// Duration of a step, s.
+    fn step_s(&self) -> f64;
+
+    /// Cells or spheres that a step updates now.
+    fn size(&self) -> u64;
+
+    /// Most steps to be taken before the next [`Self::tidy`].
+    fn stride(&self) -> u64;
+
+    /// Takes steps.
+    ///
+    /// # Errors
+    /// A guard stopped the run.
+    fn advance(&mut self, steps: u64) -> Result<(), Box<StopReport>>;
+
+    /// What has to be done between strides: take out grains that have left, add up forces.
+    fn tidy(&mut self) {}
+
+    /// Whether there is nothing left to be moved.
+    fn is_empty(&self) -> bool {
+        false
+    }
+
+    /// Prepares the state to be measured, after steps were taken.
+    fn look(&mut self) {}
+
+    /// Largest change of velocity since the last call over the largest speed; `None` at the first one, and where nothing
+    /// can be steady.
+    fn change(&mut self) -> Option<f64> {
+        None
+    }
+
+    /// Largest speed that counts for being at rest, m/s.
+    fn speed_m_per_s(&self) -> f64;
+
+    /// What every probe says now; means begin anew.
+    fn row(&mut self) -> Vec<(String, Vec<Quantity>)>;
+
+    /// Writes fields, surfaces, profiles and maps.
+    ///
+    /// # Errors
+    /// I/O.
+    fn write_fields(&mut self, recorder: &Recorder) -> Result<(), OutputError>;
+
+    /// Writes grains, contacts and walls.
+    ///
+    /// # Errors
+    /// I/O.
+    fn write_grains(&mut self) -> Result<(), OutputError>;
+
+    /// Writes tables and pictures at the end.
+    ///
+    /// # Errors
+    /// I/O.
+    fn finish(&self, recorder: &Recorder) -> Result<(), OutputError>;
+
+    /// What people are told about the state.
+    fn line(&self) -> String;
+
+    /// The state in numbers.
+    fn parts(&self) -> Parts;
+}
+
+/// What is known of a run before it starts.
+pub(super) struct Order {
+    /// Name of the scene file.
+    pub scene: String,
+    /// Hash of the scene's content.
+    pub scene_hash: String,
+    /// Name of the solver of the fluid.
+    pub backend: Option<&'static str>,
+    /// Worker threads.
+    pub threads: usize,
+    /// When things are due and the run is over.
+    pub cadences: Cadences,
+    /// Those that are due, and the last step.
+    pub schedule: Schedule,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finished {
+    /// Steps taken.
+    pub steps: u64,
+    /// Simulated time, s.
+    pub time_s: f64,
+    /// Why it ended.
+    pub ended: Ended,
+    /// Residual of the last steadiness check; `None` if there was none.
+    pub residual: Option<f64>,
+    /// Wall-clock time of the stepping, s.
+    pub wall_seconds: f64,
+    /// Million updates per second, of cells, or of spheres without fluid.
+    pub million_updates_per_second: f64,
+}
+
+/// Drives a run to its end and writes its outputs.
+///
+/// # Errors
+/// A guard stops the run (what was written before stays), or a file cannot be written.
+pub(super) fn drive(
+    experiment: &mut dyn Experiment,
+    recorder: &mut Recorder,
+    order: Order,
+    progress: &Progress,
+) -> Result<Finished, RunError> {
+    let mut driver = Driver {
+        experiment,
+        recorder,
+        order,
+        progress,
+        stepping: 0.0,
+        updates: 0.0,
+        residual: None,
+        at_rest_since: None,
+    };
+    let result = driver.drive();
+    progress.finish();
+    result
+}
+
+struct Driver<'a> {
+    experiment: &'a mut dyn Experiment,
+    recorder: &'a mut Recorder,
+    order: Order,
+    progress: &'a Progress,
+    /// Wall-clock time of the stepping, s.
+    stepping: f64,
+    /// Updates so far; the number of fluid cells changes with a free surface.
+    updates: f64,
+    /// Of the last steadiness check.
+    residual: Option<f64>,
+    /// Time of the first of the latest unbroken row of checks that found everything at rest, s.
+    at_rest_since: Option<f64>,
+}
+
+impl Driver<'_> {
+    fn drive(&mut self) -> Result<Finished, RunError> {
+        self.row()?;
+        self.experiment.write_fields(self.recorder)?;
+        self.recorder.write_series()?;
+        self.experiment.write_grains()?;
+        let ended = loop {
+            self.advance(self.order.schedule.next(self.experiment.step()))?;
+            self.experiment.look();
+            let ended = self.ended();
+            self.outputs(ended.is_some())?;
+            if let Some(ended) = ended {
+                break ended;
+            }
+        };
+        self.recorder.write_series()?;
+        self.experiment.finish(self.recorder)?;
+        let finished = self.finished(ended);
+        self.summary(&finished, None)?;
+        Ok(finished)
+    }
+
+    /// Steps up to `due` in strides, so that the bar moves.
+    fn advance(&mut self, due: u64) -> Result<(), RunError> {
+        while self.experiment.step() < due && !self.experiment.is_empty() {
+            let (from, size) = (self.experiment.step(), self.experiment.size());
+            let clock = Instant::now();
+            let result = self.experiment.advance(self.experiment.stride().min(due - from));
+            self.stepping += clock.elapsed().as_secs_f64();
+            // The mean of before and after.
+            let taken = (self.experiment.step() - from) as f64;
+            self.updates += 0.5 * (size + self.experiment.size()) as f64 * taken;
+            self.progress.set(self.experiment.step());
+            if let Err(report) = result {
+                return Err(self.stopped(report)?);
+            }
+            self.experiment.tidy();
+        }
+        Ok(())
+    }
+
+    /// Writes what there is.
+    fn stopped(&mut self, report: Box<StopReport>) -> Result<RunError, RunError> {
+        self.experiment.look();
+        self.recorder.write_series()?;
+        let finished = self.finished(Ended::Stopped);
+        self.summary(&finished, Some(report.to_string()))?;
+        Ok(RunError::Stopped(report))
+    }
+
+    /// Whether the run is over, and why.
+    fn ended(&mut self) -> Option<Ended> {
+        let now = self.experiment.step();
+        let steady = self.order.schedule.steady.take_if_due(now) && self.is_steady();
+        let at_rest = self.order.schedule.arrested.take_if_due(now) && self.is_at_rest();
+        if steady {
+            Some(Ended::Steady)
+        } else if at_rest {
+            Some(Ended::AtRest)
+        } else if self.experiment.is_empty() {
+            Some(Ended::Empty)
+        } else {
+            (now >= self.order.schedule.end).then_some(Ended::EndTime)
+        }
+    }
+
+    fn is_steady(&mut self) -> bool {
+        let tolerance = self.order.cadences.steady.map_or(0.0, |steady| steady.tolerance);
+        self.residual = self.experiment.change();
+        self.residual.is_some_and(|residual| residual <= tolerance)
+    }
+
+    /// Whether every check of the last `for_s` found everything slower than the limit.
+    fn is_at_rest(&mut self) -> bool {
+        let Some(rule) = self.order.cadences.arrested else { return false };
+        let time = self.experiment.time_s();
+        if self.experiment.speed_m_per_s() >= rule.speed_m_per_s {
+            self.at_rest_since = None;
+            return false;
+        }
+        let since = *self.at_rest_since.get_or_insert(time);
+        // Checks fall on whole steps: half a step is no difference.
+        time - since >= rule.for_s - 0.5 * self.experiment.step_s()
+    }
+
+    /// Writes what is due; `last`: everything.
+    fn outputs(&mut self, last: bool) -> Result<(), RunError> {
+        let now = self.experiment.step();
+        if self.order.schedule.series.take_if_due(now) || last {
+            self.row()?;
+        }
+        let due = self.order.schedule.take_files(now, last);
+        if due.files {
+            self.experiment.write_fields(self.recorder)?;
+            self.recorder.write_series()?;
+            self.progress.note(&self.line());
+        }
+        if due.grains {
+            self.experiment.write_grains()?;
+        }
+        Ok(())
+    }
+
+    fn row(&mut self) -> Result<(), RunError> {
+        let row = self.experiment.row();
+        Ok(self.recorder.row(self.experiment.time_s(), &row)?)
+    }
+
+    fn line(&self) -> String {
+        let residual = self.residual.map_or_else(String::new, |r| format!(", residual {r:.2e}"));
+        format!(
+            "step {} of {}, {:.6} s, {}{residual}",
+            self.experiment.step(),
+            self.order.schedule.end,
+            self.experiment.time_s(),
+            self.experiment.line()
+        )
+    }
+
+    fn finished(&self, ended: Ended) -> Finished {
+        let rate = if self.stepping > 0.0 { 1e-6 * self.updates / self.stepping } else { 0.0 };
+        Finished {
+            steps: self.experiment.step(),
+            time_s: self.experiment.time_s(),
+            ended,
+            residual: self.residual,
+            wall_seconds: self.stepping,
+            million_updates_per_second: rate,
+        }
+    }
+
+    fn summary(&self, finished: &Finished, stopped: Option<String>) -> Result<(), OutputError> {
+        let summary = Summary {
+            scene: self.order.scene.clone(),
+            scene_hash: self.order.scene_hash.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            backend: self.order.backend.map(str::to_owned),
+            threads: self.order.threads,
+            steps: finished.steps,
+            time_s: finished.time_s,
+            ended: finished.ended,
+            wall_seconds: finished.wall_seconds,
+            million_updates_per_second: finished.million_updates_per_second,
+            parts: self.experiment.parts(),
+            stopped,
+        };
+        summary.write(&self.recorder.path("summary.json"))
+    }
+}

@@ -1,0 +1,165 @@
+//! Files of a fluid: fields, surfaces, profiles, sections and maps.
+
+use std::path::{Path, PathBuf};
+
+use super::mesh::free_surface;
+use crate::output::csv::Series;
+use crate::output::pvd::Collection;
+use crate::output::{OutputError, vti, vtp};
+use crate::run::measure::fields::{PROFILE_COLUMNS, is_fluid, profile, unyielded};
+use crate::run::measure::fluid::{Frame, SECTION_COLUMNS};
+use crate::scene::{Measure, Probe};
+use crate::setup::Setup;
+use crate::solver::run::Fields;
+
+/// Knows what has been written.
+pub(super) struct Files<'a> {
+    folder: PathBuf,
+    setup: &'a Setup,
+    pub sections: Vec<Section>,
+    collection: Collection,
+    surfaces: Collection,
+    written: usize,
+}
+
+/// A section at one time, kept for the plot at the end.
+pub(super) struct Section {
+    pub probe: String,
+    pub time_s: f64,
+    pub rows: Vec<[f64; 7]>,
+}
+
+/// A fluid at one time.
+#[derive(Clone, Copy)]
+pub(super) struct Shot<'a> {
+    pub time_s: f64,
+    pub fields: &'a Fields,
+    pub frame: &'a Frame,
+    /// Whether grains cover each cell; `None` without grains.
+    pub covered: Option<&'a [u8]>,
+}
+
+impl<'a> Files<'a> {
+    pub fn new(setup: &'a Setup, folder: &Path) -> Self {
+        Self {
+            folder: folder.to_path_buf(),
+            setup,
+            sections: Vec::new(),
+            collection: Collection::default(),
+            surfaces: Collection::default(),
+            written: 0,
+        }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// Fields, the surface, and what probes write into files.
+    ///
+    /// # Errors
+    /// I/O.
+    pub fn snapshot<'b>(
+        &mut self,
+        shot: &Shot<'_>,
+        probes: impl Iterator<Item = &'b Probe>,
+    ) -> Result<(), OutputError> {
+        let name = format!("fields_{:06}.vti", self.written);
+        self.image(&name, shot)?;
+        self.collection.push(shot.time_s, &name);
+        self.collection.write(&self.path("run.pvd"))?;
+        if self.setup.free_surface.is_some() {
+            let name = format!("surface_{:06}.vtp", self.written);
+            let mesh = free_surface(self.setup, shot.fields, &shot.frame.units);
+            vtp::write(&self.path(&name), &mesh, "velocity_m_per_s", shot.time_s)?;
+            self.surfaces.push(shot.time_s, &name);
+            self.surfaces.write(&self.path("surface.pvd"))?;
+        }
+        for probe in probes {
+            self.probe(probe, shot)?;
+        }
+        self.written += 1;
+        Ok(())
+    }
+
+    /// What a probe writes into a file of its own, if it does.
+    fn probe(&mut self, probe: &Probe, shot: &Shot<'_>) -> Result<(), OutputError> {
+        let (name, frame, fields) = (&probe.name, shot.frame, shot.fields);
+        let file = |kind: &str, end: &str| self.path(&format!("{kind}_{name}_{:06}.{end}", self.written));
+        match probe.measure {
+            Measure::Profile { along } => {
+                let rows = profile(along, self.setup, fields, &frame.units);
+                table(&file("profile", "csv"), &PROFILE_COLUMNS, &rows)
+            }
+            Measure::SurfaceProfile { along, at_m, above_m } => {
+                let rows = frame.section(along, at_m, above_m, self.setup, fields);
+                table(&file("section", "csv"), &SECTION_COLUMNS, &rows)?;
+                self.sections.push(Section { probe: name.clone(), time_s: shot.time_s, rows });
+                Ok(())
+            }
+            Measure::DepthMap { above_m } => self.map(&file("depth", "vti"), shot, above_m),
+            _ => Ok(()),
+        }
+    }
+
+    fn image(&self, name: &str, shot: &Shot<'_>) -> Result<(), OutputError> {
+        let (units, fields) = (&shot.frame.units, shot.fields);
+        let fluid: Vec<bool> = (0..self.setup.cells()).map(|c| is_fluid(self.setup, fields, c)).collect();
+        let pressure: Vec<f64> = (fields.density.iter().zip(&fluid))
+            .map(|(&rho, &fluid)| if fluid { units.pressure_of_density(rho) } else { 0.0 })
+            .collect();
+        let velocity: Vec<[f64; 3]> = fields.velocity.iter().map(|&u| units.velocities_to_si(u)).collect();
+        let stress: Vec<[f64; 6]> =
+            fields.stress.iter().map(|s| s.map(|component| units.stress_to_si(component))).collect();
+        let rate: Vec<f64> = fields.shear_rate.iter().map(|&rate| units.rate_to_si(rate)).collect();
+        let plug = unyielded(self.setup, fields);
+        let yielded: Vec<u8> = plug.iter().zip(&fluid).map(|(&p, &f)| u8::from(f && !p)).collect();
+        let plug: Vec<u8> = plug.into_iter().map(u8::from).collect();
+        let solid: Vec<u8> = self.setup.solids.iter().map(|&s| u8::from(s != 0)).collect();
+        let mut image = vti::Image::new(self.setup.extents, [0.0; 3], units.dx_m)
+            .time(shot.time_s)
+            .scalar("pressure_pa", &pressure)
+            .vector("velocity_m_per_s", &velocity)
+            .tensor("stress_pa", &stress)
+            .scalar("shear_rate_per_s", &rate)
+            .mask("unyielded", &plug);
+        if !fields.kind.is_empty() {
+            image = image.scalar("fill", &fields.fill).mask("kind", &fields.kind).mask("yielded", &yielded);
+        }
+        if let Some(covered) = shot.covered {
+            image = image.mask("covered", covered);
+        }
+        if !solid.is_empty() {
+            image = image.mask("solid", &solid);
+        }
+        if !self.setup.fluid_of_cell.is_empty() {
+            image = image.mask("fluid", &self.setup.fluid_of_cell);
+        }
+        image.write(&self.path(name))
+    }
+
+    /// Bed, depth and surface of all columns as an image of one layer.
+    fn map(&self, path: &Path, shot: &Shot<'_>, above_m: Option<f64>) -> Result<(), OutputError> {
+        let (upright, units) = (shot.frame.upright, &shot.frame.units);
+        let columns = upright.columns(self.setup, shot.fields, units, above_m);
+        let depth: Vec<f64> = columns.iter().map(|column| column.depth).collect();
+        let bed: Vec<f64> = columns.iter().map(|column| column.bed).collect();
+        let surface: Vec<f64> = columns.iter().map(|column| upright.surface(column, above_m)).collect();
+        let mut extents = self.setup.extents;
+        extents[upright.up.index()] = 1;
+        vti::Image::new(extents, [0.0; 3], units.dx_m)
+            .time(shot.time_s)
+            .scalar("depth_m", &depth)
+            .scalar("bed_m", &bed)
+            .scalar("surface_m", &surface)
+            .write(path)
+    }
+}
+
+fn table<const N: usize>(path: &Path, header: &[(&str, &str)], rows: &[[f64; N]]) -> Result<(), OutputError> {
+    let mut table = Series::new(header);
+    for row in rows {
+        table.push(row)?;
+    }
+    table.write(path)
+}

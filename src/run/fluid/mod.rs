@@ -1,0 +1,212 @@
+//! A fluid, with or without grains in it, as the driver moves it.
+
+mod books;
+mod files;
+mod grains;
+mod mesh;
+mod pictures;
+mod stop;
+
+use super::driver::Experiment;
+use super::error::RunError;
+use super::measure::fields::{max_speed, weighted_speed};
+use super::measure::fluid::{Fluid, Frame};
+use super::measure::quantity::Quantity;
+use super::measure::{Probes, State};
+use super::recorder::Recorder;
+use super::stop::StopReport;
+use super::summary::Parts;
+use crate::output::OutputError;
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::solver::run::{Backend, Fields, Run};
+use crate::solver::steady::residual;
+use files::{Files, Shot};
+use grains::InFluid;
+use pictures::Plots;
+
+/// Cell updates between two movements of the progress bar.
+const UPDATES_PER_MOVE: u64 = 2_000_000;
+/// Steps between two looks for grains that have left; what is beyond a face has no fluid around it.
+const STEPS_PER_LOOK: u64 = 50;
+
+/// A fluid, with or without grains in it.
+pub(super) struct Flow<'a> {
+    scene: &'a Scene,
+    plan: &'a Plan,
+    run: Box<dyn Run>,
+    /// As they were at the last look.
+    fields: Fields,
+    frame: Frame,
+    probes: Probes,
+    files: Files<'a>,
+    grains: Option<InFluid<'a>>,
+    /// Whether forces of contacts have to be looked at in every step.
+    every_step: bool,
+    /// Mass excess at time 0, lattice units.
+    mass_at_start: f64,
+    /// Velocities at the last check for steadiness.
+    last_check: Option<Vec<[f64; 3]>>,
+}
+
+impl<'a> Flow<'a> {
+    /// The fluid of a plan at time 0.
+    ///
+    /// # Errors
+    /// The backend refuses the set-up.
+    pub fn start(
+        scene: &'a Scene,
+        plan: &'a Plan,
+        backend: &dyn Backend,
+        threads: usize,
+        recorder: &Recorder,
+    ) -> Result<Self, RunError> {
+        let mut setup = plan.setup.clone();
+        setup.threads = threads;
+        let run = backend.start(&setup).map_err(RunError::Start)?;
+        let probes = Probes::of_flow(scene);
+        let grains = plan.grains.as_ref().zip(run.grains());
+        let grains = grains.map(|(coupled, grains)| InFluid::new(coupled, grains, recorder));
+        let loads = probes.iter().any(|(probe, _)| probe.measure.loaded_solid().is_some());
+        Ok(Self {
+            every_step: grains.is_some() && loads,
+            fields: run.fields(),
+            mass_at_start: run.totals().mass_excess,
+            frame: Frame::new(scene, plan.units),
+            files: Files::new(&plan.setup, &recorder.path("")),
+            last_check: None,
+            scene,
+            plan,
+            run,
+            probes,
+            grains,
+        })
+    }
+
+    fn opens(&self) -> bool {
+        self.grains.as_ref().is_some_and(|grains| grains.population.has_open_faces())
+    }
+}
+
+impl Experiment for Flow<'_> {
+    fn step(&self) -> u64 {
+        self.run.step()
+    }
+
+    fn time_s(&self) -> f64 {
+        self.plan.units.time_to_si(self.run.step() as f64)
+    }
+
+    fn step_s(&self) -> f64 {
+        self.plan.units.dt_s
+    }
+
+    fn size(&self) -> u64 {
+        self.run.fluid_cells()
+    }
+
+    fn stride(&self) -> u64 {
+        let stride = if self.every_step { 1 } else { (UPDATES_PER_MOVE / self.size().max(1)).max(1) };
+        if self.opens() { stride.min(STEPS_PER_LOOK - self.step() % STEPS_PER_LOOK) } else { stride }
+    }
+
+    fn advance(&mut self, steps: u64) -> Result<(), Box<StopReport>> {
+        let population = self.grains.as_ref().map(|grains| &grains.population);
+        let number = |grain: u32| population.map_or(grain as usize, |all| all.number(grain as usize));
+        match self.run.advance(steps) {
+            Ok(()) => Ok(()),
+            Err(stopped) => {
+                let failure = self.run.grains().and_then(|grains| grains.failure());
+                Err(Box::new(stop::report(&self.scene.file, self.plan, &stopped, failure, &number)))
+            }
+        }
+    }
+
+    fn tidy(&mut self) {
+        let opens = self.opens();
+        let Some(grains) = &mut self.grains else { return };
+        if let (true, Some(immersed)) = (self.every_step, self.run.grains()) {
+            grains.contacts.sample(immersed, self.plan.units.dt_s);
+        }
+        if opens && self.run.step().is_multiple_of(STEPS_PER_LOOK) {
+            grains.take_out(self.run.as_mut());
+        }
+    }
+
+    fn look(&mut self) {
+        // The old fields go before the new ones come: never two sets at a time.
+        drop(std::mem::take(&mut self.fields));
+        self.fields = self.run.fields();
+    }
+
+    fn change(&mut self) -> Option<f64> {
+        let before = self.last_check.replace(self.fields.velocity.clone());
+        before.map(|before| residual(&before, &self.fields.velocity))
+    }
+
+    /// Of fluid and grains; each cell's times its fill.
+    fn speed_m_per_s(&self) -> f64 {
+        let grains = self.grains.as_ref().zip(self.run.grains());
+        let grains = grains.map_or(0.0, |(part, grains)| part.grains(grains, 0.0).view.max_speed());
+        self.plan.units.velocity_to_si(weighted_speed(&self.fields)).max(grains)
+    }
+
+    fn row(&mut self) -> Vec<(String, Vec<Quantity>)> {
+        let (run, time) = (self.run.as_ref(), self.time_s());
+        let grains = self.grains.as_ref().zip(run.grains());
+        let row = self.probes.row(&State {
+            fluid: Some(Fluid { run, fields: &self.fields, frame: &self.frame }),
+            grains: grains.map(|(part, grains)| part.grains(grains, time)),
+            contacts: self.grains.as_ref().map(|grains| &grains.contacts),
+        });
+        if let Some(grains) = &mut self.grains {
+            grains.contacts.restart();
+        }
+        row
+    }
+
+    fn write_fields(&mut self, _: &Recorder) -> Result<(), OutputError> {
+        let covered = self.run.grains().map(|grains| {
+            let cells = 0..self.plan.setup.cells();
+            cells.map(|cell| u8::from(grains.is_covered(cell))).collect::<Vec<u8>>()
+        });
+        let (time_s, covered) = (self.time_s(), covered.as_deref());
+        let shot = Shot { time_s, fields: &self.fields, frame: &self.frame, covered };
+        self.files.snapshot(&shot, self.probes.iter().map(|(probe, _)| probe))
+    }
+
+    fn write_grains(&mut self) -> Result<(), OutputError> {
+        let time = self.time_s();
+        match (&mut self.grains, self.run.grains()) {
+            (Some(part), Some(grains)) => part.snapshot(grains, time),
+            _ => Ok(()),
+        }
+    }
+
+    fn finish(&self, recorder: &Recorder) -> Result<(), OutputError> {
+        let title = &self.plan.numbers.title;
+        let plots = Plots {
+            recorder,
+            title,
+            setup: &self.plan.setup,
+            frame: &self.frame,
+            fields: &self.fields,
+            sections: &self.files.sections,
+            has_grains: self.grains.is_some(),
+        };
+        plots.draw(&self.probes)?;
+        let Some((part, grains)) = self.grains.as_ref().zip(self.run.grains()) else { return Ok(()) };
+        part.finish(grains, self.time_s(), recorder, &self.probes, title)
+    }
+
+    fn line(&self) -> String {
+        let speed = self.plan.units.velocity_to_si(max_speed(&self.fields));
+        format!("largest speed {speed:.4e} m/s")
+    }
+
+    fn parts(&self) -> Parts {
+        let run = self.run.as_ref();
+        let grains = self.grains.as_ref().and_then(|part| part.part(run, &self.plan.units, self.time_s()));
+        Parts::Fluid(Box::new(books::part(self.plan, run, &self.fields, self.mass_at_start, grains)))
+    }
+}

@@ -1,0 +1,96 @@
+//! What stopped a fluid, for people.
+
+use crate::dem::DemError;
+use crate::plan::Plan;
+use crate::run::stop::{StopPlace, StopReport};
+use crate::setup::WallRule;
+use crate::solver::run::{Runaway, Stopped};
+
+/// A report about a run of the scene `file`. `failure`: what the discrete element method says. `number`: number at time
+/// 0 of a grain.
+pub(super) fn report(
+    file: &str,
+    plan: &Plan,
+    stopped: &Stopped,
+    failure: Option<&DemError>,
+    number: &dyn Fn(u32) -> usize,
+) -> StopReport {
+    let units = &plan.units;
+    StopReport {
+        file: file.to_owned(),
+        step: stopped.step,
+        time_s: units.time_to_si(stopped.step as f64),
+        place: StopPlace::Cell {
+            cell: stopped.cell,
+            position_m: units.cell_centre_m(stopped.cell),
+            tau: stopped.tau,
+        },
+        found: found(plan, stopped, failure, number),
+        cause: cause(plan, stopped),
+    }
+}
+
+/// What was found, with its unit.
+fn found(
+    plan: &Plan,
+    stopped: &Stopped,
+    failure: Option<&DemError>,
+    number: &dyn Fn(u32) -> usize,
+) -> String {
+    let name = |grain: u32| match &plan.grains {
+        Some(coupled) => coupled.grains.name(number(grain)),
+        None => format!("grain {grain}"),
+    };
+    let too_fast = |speed: f64, limit: f64| {
+        let speed_si = plan.units.velocity_to_si(speed);
+        format!("{speed_si:.4e} m/s, {speed:.3} cells per step; the limit is {limit}")
+    };
+    match stopped.what {
+        Runaway::NotFinite => "density or velocity is not a finite number".to_owned(),
+        Runaway::NoDensity { density } => {
+            format!("density of {density:.4} times the reference density, which is not > 0")
+        }
+        Runaway::Ledger { residual, bound } => {
+            format!("mass changed by {residual:.3e} of the whole in one step; rounding allows {bound:.1e}")
+        }
+        Runaway::Grains { grain } => match failure {
+            Some(error) => format!("{}: {error}", name(grain)),
+            None => format!("{} could not go on", name(grain)),
+        },
+        Runaway::GrainTooFast { grain, speed, limit } => {
+            format!("{} moves at {}", name(grain), too_fast(speed, limit))
+        }
+        Runaway::TooFast { speed, limit } => too_fast(speed, limit),
+    }
+}
+
+/// The likeliest cause, by what the plan already knew.
+fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
+    let numbers = &plan.numbers;
+    if matches!(stopped.what, Runaway::Ledger { .. }) {
+        "a defect of the solver; please report the scene"
+    } else if matches!(stopped.what, Runaway::Grains { .. }) {
+        "an impact too fast or a load too high for this Young's modulus; stiffer material, more \
+         `grains.coupling.sub_steps`, or a higher `grains.numerics.design_speed_m_per_s`"
+    } else if matches!(stopped.what, Runaway::GrainTooFast { .. }) {
+        "grains fall faster than the velocity scale assumed; give `numerics.reference_velocity_m_per_s` or a smaller \
+         time step"
+    } else if stopped.tau < 0.52
+        && numbers.depth_cells.is_some()
+        && plan.setup.wall_rule == WallRule::ViscosityIndependent
+    {
+        "the relaxation time is near ½ below a free surface; a finer `domain.spacing_m`, a larger viscosity, or \
+         `half_way` walls"
+    } else if stopped.tau < 0.55 {
+        "the relaxation time is near ½, where waves grow [K5]; a finer `domain.spacing_m` or a larger viscosity"
+    } else if stopped.tau.is_finite() && stopped.tau > 3.0 && !plan.numbers.operator.has_odd_rate() {
+        "one relaxation rate at a large relaxation time; `central_moment`, or a smaller time step"
+    } else if numbers.mach > 0.17 {
+        "the Mach number is high; a smaller time step"
+    } else if numbers.reference_velocity_m_per_s == 0.0 {
+        "the flow was expected to be at rest; give `numerics.reference_velocity_m_per_s`"
+    } else {
+        "the flow is faster than the velocity scale assumed; give `numerics.reference_velocity_m_per_s` or a \
+         smaller time step"
+    }
+}

@@ -1,0 +1,150 @@
+//! Grains without fluid, as the driver moves them; and what is written about grains in any run.
+
+pub(super) mod books;
+pub(super) mod files;
+pub(super) mod pictures;
+pub(super) mod population;
+mod stop;
+mod walls;
+
+use super::driver::Experiment;
+use super::error::RunError;
+use super::measure::grains::Grains;
+use super::measure::quantity::Quantity;
+use super::measure::{Probes, State};
+use super::recorder::Recorder;
+use super::stop::StopReport;
+use super::summary::Parts;
+use super::view::View;
+use crate::dem::Dem;
+use crate::output::OutputError;
+use crate::plan::grains::GrainPlan;
+use crate::scene::dry::DryScene;
+use files::Files;
+use population::Population;
+
+/// Sphere updates between two movements of the progress bar.
+const UPDATES_PER_MOVE: u64 = 1_000_000;
+/// Steps between two looks for grains that have left; they fly freely meanwhile.
+const STEPS_PER_LOOK: u64 = 200;
+
+/// Grains without fluid.
+pub(super) struct Dry<'a> {
+    scene: &'a DryScene,
+    plan: &'a GrainPlan,
+    dem: Dem,
+    population: Population,
+    probes: Probes,
+    files: Files<'a>,
+}
+
+impl<'a> Dry<'a> {
+    /// The grains of a plan at time 0.
+    ///
+    /// # Errors
+    /// The method refuses the set-up.
+    pub fn start(scene: &'a DryScene, plan: &'a GrainPlan, recorder: &Recorder) -> Result<Self, RunError> {
+        let refused = |error| RunError::Stopped(Box::new(stop::refused(&scene.file, &error)));
+        let dem = Dem::new(&plan.setup).map_err(refused)?;
+        let size_m = scene.domain.size_m;
+        Ok(Self {
+            population: Population::new(plan, size_m, &dem),
+            probes: Probes::of_grains(scene),
+            files: Files::new(plan, size_m, &recorder.path("")),
+            scene,
+            plan,
+            dem,
+        })
+    }
+
+    fn view(&self) -> View<'_> {
+        self.population.view(&self.dem, self.dem.time())
+    }
+}
+
+impl Experiment for Dry<'_> {
+    fn step(&self) -> u64 {
+        self.dem.steps()
+    }
+
+    fn time_s(&self) -> f64 {
+        self.dem.time()
+    }
+
+    fn step_s(&self) -> f64 {
+        self.dem.time_step()
+    }
+
+    fn size(&self) -> u64 {
+        self.dem.members().len() as u64
+    }
+
+    fn stride(&self) -> u64 {
+        let stride = (UPDATES_PER_MOVE / self.size().max(1)).max(1);
+        if self.population.has_open_faces() {
+            stride.min(STEPS_PER_LOOK - self.step() % STEPS_PER_LOOK)
+        } else {
+            stride
+        }
+    }
+
+    fn advance(&mut self, steps: u64) -> Result<(), Box<StopReport>> {
+        let result = self.dem.step(steps);
+        let report = |error| stop::report(&self.scene.file, self.plan, &self.population, &self.dem, &error);
+        result.map_err(|error| Box::new(report(error)))
+    }
+
+    /// Takes out the free grains that are wholly beyond an open face.
+    fn tidy(&mut self) {
+        if !self.population.has_open_faces() {
+            return;
+        }
+        if let Some(leaving) = self.population.leaving(&self.dem) {
+            self.dem.retain(&leaving.stays, self.population.walls());
+            self.population.book(&leaving, &self.dem);
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.population.nothing_left(&self.dem)
+    }
+
+    fn speed_m_per_s(&self) -> f64 {
+        self.view().max_speed()
+    }
+
+    fn row(&mut self) -> Vec<(String, Vec<Quantity>)> {
+        let view = self.population.view(&self.dem, self.dem.time());
+        let grains = Grains { view, plan: self.plan };
+        self.probes.row(&State { fluid: None, grains: Some(grains), contacts: None })
+    }
+
+    fn write_fields(&mut self, _: &Recorder) -> Result<(), OutputError> {
+        Ok(())
+    }
+
+    fn write_grains(&mut self) -> Result<(), OutputError> {
+        self.files.snapshot(&self.population.view(&self.dem, self.dem.time()))
+    }
+
+    fn finish(&self, recorder: &Recorder) -> Result<(), OutputError> {
+        let view = self.view();
+        self.files.tables(&view)?;
+        pictures::plots(recorder, &self.probes, &self.plan.numbers.title)?;
+        pictures::picture(&recorder.path("plots"), self.plan, self.scene.domain.size_m, &view)
+    }
+
+    fn line(&self) -> String {
+        let view = self.view();
+        let left = match view.left.number {
+            0 => String::new(),
+            number => format!(", {number} left"),
+        };
+        let contacts = self.dem.pair_counts().1;
+        format!("largest speed {:.4e} m/s, {contacts} contacts{left}", view.max_speed())
+    }
+
+    fn parts(&self) -> Parts {
+        Parts::Dry(Box::new(books::dry(&self.view())))
+    }
+}

@@ -1,0 +1,111 @@
+//! Which grains there are. Those that pass an open face are taken out and booked.
+
+use crate::dem::{Dem, Setup, Shape, keep_marked};
+use crate::plan::grains::GrainPlan;
+use crate::run::view::{Left, View};
+
+/// The grains still there, and those that have left.
+pub(in crate::run) struct Population {
+    /// The set-up of the grains still there.
+    setup: Setup,
+    /// Number at time 0 of each grain still there.
+    ids: Vec<u32>,
+    left: Left,
+    /// Energy balance at time 0, J.
+    start: f64,
+    /// Faces through which grains leave, `[axis][low, high]`.
+    open: [[bool; 2]; 3],
+    /// Edge lengths of the box, m.
+    size_m: [f64; 3],
+}
+
+/// Grains that are about to leave.
+pub(in crate::run) struct Leaving {
+    /// Whether each grain stays.
+    pub stays: Vec<bool>,
+    number: u64,
+    mass_kg: f64,
+    /// Energy balance before, J.
+    before: f64,
+}
+
+impl Population {
+    /// All grains of a plan in a box of edges `size_m`, m; `dem` at time 0.
+    pub fn new(plan: &GrainPlan, size_m: [f64; 3], dem: &Dem) -> Self {
+        Self {
+            setup: plan.setup.clone(),
+            ids: (0..dem.bodies().len() as u32).collect(),
+            left: Left::default(),
+            start: dem.energies().balance(),
+            open: plan.open,
+            size_m,
+        }
+    }
+
+    /// The grains as they are at `time`, s.
+    pub fn view<'a>(&'a self, dem: &'a Dem, time: f64) -> View<'a> {
+        View { dem, setup: &self.setup, ids: &self.ids, left: self.left, start: self.start, time }
+    }
+
+    /// Whether grains can leave.
+    pub fn has_open_faces(&self) -> bool {
+        self.open.iter().flatten().any(|open| *open)
+    }
+
+    /// Whether grains have left and no free one is there any more.
+    pub fn nothing_left(&self, dem: &Dem) -> bool {
+        self.left.number > 0 && self.view(dem, 0.0).free().next().is_none()
+    }
+
+    /// Number at time 0 of a grain.
+    pub fn number(&self, grain: usize) -> usize {
+        self.ids.get(grain).map_or(grain, |&id| id as usize)
+    }
+
+    /// The free grains that are wholly beyond an open face; `None` if there is none.
+    pub fn leaving(&self, dem: &Dem) -> Option<Leaving> {
+        let b = dem.bodies();
+        let stays = |i: usize| {
+            let reach = reach(dem, &self.setup, i);
+            let gone = |k: usize| {
+                let x = b.position[i][k];
+                let [low, high] = self.open[k];
+                (low && x < -reach) || (high && x > self.size_m[k] + reach)
+            };
+            b.inverse_mass[i] == 0.0 || !(0..3).any(gone)
+        };
+        let stays: Vec<bool> = (0..b.len()).map(stays).collect();
+        if !stays.contains(&false) {
+            return None;
+        }
+        let gone = || stays.iter().enumerate().filter(|(_, stays)| !**stays);
+        let (number, mass_kg) = (gone().count() as u64, gone().map(|(i, _)| b.mass[i]).sum());
+        Some(Leaving { number, mass_kg, before: dem.energies().balance(), stays })
+    }
+
+    /// Walls of the set-up.
+    pub fn walls(&self) -> usize {
+        self.setup.walls.len()
+    }
+
+    /// Books grains that were taken out; `dem` is without them.
+    pub fn book(&mut self, leaving: &Leaving, dem: &Dem) {
+        keep_marked(&mut self.setup.grains, &leaving.stays);
+        keep_marked(&mut self.ids, &leaving.stays);
+        self.left.number += leaving.number;
+        self.left.mass_kg += leaving.mass_kg;
+        self.left.energy_j += leaving.before - dem.energies().balance();
+    }
+}
+
+/// Largest distance of a point of a grain from its centre, m.
+fn reach(dem: &Dem, setup: &Setup, i: usize) -> f64 {
+    let b = dem.bodies();
+    match setup.grains[i].shape {
+        Shape::Sphere => b.radius[i],
+        Shape::Clump(k) => {
+            let clump = &setup.clumps[k];
+            clump.reach * b.radius[i] / clump.equivalent_radius()
+        }
+    }
+}

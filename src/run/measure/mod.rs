@@ -1,0 +1,153 @@
+//! What the probes of a run measure. A probe's columns and its values come out of one function, together.
+
+pub(super) mod columns;
+pub(super) mod contacts;
+mod coupled;
+mod crossings;
+pub(super) mod fields;
+pub(super) mod fluid;
+pub(super) mod grains;
+pub(super) mod quantity;
+
+use contacts::Contacts;
+use crossings::Crossings;
+use fluid::Fluid;
+use grains::Grains;
+use quantity::{Quantity, several};
+
+use crate::scene::dry::DryScene;
+use crate::scene::{Measure, Probe, Scene, Subject};
+
+/// What there is to be measured at one time.
+#[derive(Clone, Copy)]
+pub(super) struct State<'a> {
+    pub fluid: Option<Fluid<'a>>,
+    pub grains: Option<Grains<'a>>,
+    /// Forces of contacts on the solids of a fluid with grains.
+    pub contacts: Option<&'a Contacts<'a>>,
+}
+
+/// A probe and what it has gathered so far.
+struct Gauge {
+    probe: Probe,
+    /// What the words mean that fluid and grains share.
+    subject: Subject,
+    /// What has crossed its plane, if it has one.
+    crossings: Option<Crossings>,
+}
+
+/// The probes of a run, in the order of their columns.
+pub(super) struct Probes {
+    list: Vec<Gauge>,
+}
+
+impl Probes {
+    /// Of a scene with fluid: largest speed and kinetic energy when nothing about the fluid has a column; and with
+    /// grains what [`Self::of_grains`] says.
+    pub fn of_flow(scene: &Scene) -> Self {
+        let mut fluid = scene.output.probes.clone();
+        if fluid.iter().all(|probe| probe.measure.is_file()) {
+            fluid.push(named("max_speed", Measure::MaxSpeed));
+            fluid.push(named("kinetic_energy", Measure::KineticEnergy));
+        }
+        let mut list = gauges(fluid, Subject::Fluid);
+        if scene.grains.is_some() {
+            list.extend(gauges(or_books(&scene.output.grain_probes), Subject::Grains));
+        }
+        Self { list }
+    }
+
+    /// Of a scene without fluid: energies and contacts when it names none.
+    pub fn of_grains(scene: &DryScene) -> Self {
+        Self { list: gauges(or_books(&scene.output.probes), Subject::Grains) }
+    }
+
+    /// The probes, and whether they are about grains.
+    pub fn iter(&self) -> impl Iterator<Item = (&Probe, bool)> {
+        self.list.iter().map(|gauge| (&gauge.probe, gauge.probe.measure.is_about_grains(gauge.subject)))
+    }
+
+    /// The columns of every probe at one time.
+    pub fn row(&mut self, state: &State<'_>) -> Vec<(String, Vec<Quantity>)> {
+        let row = |gauge: &mut Gauge| (gauge.probe.name.clone(), gauge.measure(state).unwrap_or_default());
+        self.list.iter_mut().map(row).collect()
+    }
+}
+
+fn named(name: &str, measure: Measure) -> Probe {
+    Probe { name: name.to_owned(), measure }
+}
+
+/// Energies and contacts in place of nothing.
+fn or_books(probes: &[Probe]) -> Vec<Probe> {
+    if probes.is_empty() {
+        return vec![named("energy", Measure::Energies), named("contacts", Measure::Contacts)];
+    }
+    probes.to_vec()
+}
+
+fn gauges(probes: Vec<Probe>, subject: Subject) -> Vec<Gauge> {
+    let gauge = |probe: Probe| {
+        let crossings = match probe.measure {
+            Measure::Flux { normal, at_m } => Some(Crossings::new(normal, at_m)),
+            _ => None,
+        };
+        Gauge { probe, subject, crossings }
+    };
+    probes.into_iter().map(gauge).collect()
+}
+
+impl Gauge {
+    /// What the probe says; `None` where the scene lacks what it needs, which its check has refused.
+    fn measure(&mut self, state: &State<'_>) -> Option<Vec<Quantity>> {
+        let (fluid, grains) = (state.fluid.as_ref(), state.grains.as_ref());
+        Some(match &self.probe.measure {
+            Measure::KineticEnergy => match self.subject {
+                Subject::Fluid => fluid?.kinetic_energy(),
+                Subject::Grains => grains?.kinetic_energy(),
+            },
+            Measure::MaxSpeed => match self.subject {
+                Subject::Fluid => fluid?.max_speed(),
+                Subject::Grains => grains?.max_speed(),
+            },
+            Measure::Mass => match self.subject {
+                Subject::Fluid => fluid?.mass(),
+                Subject::Grains => grains?.mass(),
+            },
+            Measure::PointVelocity { at_m } => fluid?.point_velocity(*at_m),
+            Measure::PlugFraction => fluid?.plug_fraction(),
+            Measure::YieldedFraction => fluid?.yielded_fraction(),
+            Measure::FlowRate { normal, at_m } => fluid?.flow_rate(*normal, *at_m),
+            Measure::Volume => fluid?.volume(),
+            Measure::Front { along, threshold_m, from_m, above_m } => {
+                fluid?.front(*along, *threshold_m, *from_m, *above_m)
+            }
+            Measure::WindowVelocity { min_m, max_m } => fluid?.window_velocity(*min_m, *max_m),
+            Measure::Ledger => fluid?.ledger(),
+            Measure::Force { on: Some(on), .. } => grains?.force(on),
+            Measure::Force { solid, on: None } => {
+                let solid = solid.as_deref()?;
+                let mut row = fluid?.load(solid);
+                row.extend(state.contacts.map_or_else(Vec::new, |contacts| contacts.on(solid)));
+                row
+            }
+            Measure::Contacts => grains?.contacts(),
+            Measure::Energies => grains?.energies(),
+            Measure::Momentum => grains?.momentum(),
+            Measure::Grain { set, number } => grains?.grain(set, *number),
+            Measure::Flux { .. } => {
+                let crossings = self.crossings.as_mut()?;
+                crossings.look(&grains?.view);
+                several([("mass", "kg", crossings.mass_kg), ("number", "-", crossings.number)])
+            }
+            Measure::Pile { along, up, share } => grains?.pile(*along, *up, *share),
+            Measure::SetSpeed { set } => grains?.set_speed(set),
+            Measure::Segregation { up, classes } => grains?.segregation(*up, *classes),
+            Measure::GrainFront { along, share } => grains?.front(*along, *share),
+            Measure::FluidForce { set, number } => coupled::fluid_force(fluid?, grains?.find(set, *number)),
+            Measure::Submergence { set, number } => coupled::submergence(fluid?, grains?.find(set, *number)),
+            // Written with the fields.
+            Measure::Profile { .. } | Measure::SurfaceProfile { .. } | Measure::DepthMap { .. } => Vec::new(),
+        })
+    }
+}

@@ -1,0 +1,224 @@
+//! What every check of a value needs: the file's name, and a located error.
+
+use super::{SceneError, SceneProblem};
+use crate::geometry::{Axis, Shape};
+
+/// Knows the file name and builds located errors.
+pub(super) struct Checker<'a> {
+    pub(super) file: &'a str,
+}
+
+impl Checker<'_> {
+    pub(super) fn fail(&self, path: impl Into<String>, problem: SceneProblem) -> Result<(), SceneError> {
+        Err(SceneError::new(self.file, path, problem))
+    }
+
+    pub(super) fn ensure(
+        &self,
+        ok: bool,
+        path: &str,
+        problem: impl FnOnce() -> SceneProblem,
+    ) -> Result<(), SceneError> {
+        if ok { Ok(()) } else { self.fail(path, problem()) }
+    }
+
+    /// `found` > 0.
+    pub(super) fn positive(
+        &self,
+        path: &str,
+        found: f64,
+        unit: &'static str,
+        because: &'static str,
+        way_out: &'static str,
+    ) -> Result<(), SceneError> {
+        self.ensure(found > 0.0, path, || SceneProblem::NotPositive { found, unit, because, way_out })
+    }
+
+    /// `found` ≥ 0.
+    pub(super) fn not_negative(
+        &self,
+        path: &str,
+        found: f64,
+        unit: &'static str,
+        because: &'static str,
+        way_out: &'static str,
+    ) -> Result<(), SceneError> {
+        self.ensure(found >= 0.0, path, || SceneProblem::Negative { found, unit, because, way_out })
+    }
+
+    /// At least one of something.
+    pub(super) fn some(&self, path: &str, count: usize, what: &'static str) -> Result<(), SceneError> {
+        self.ensure(count > 0, path, || SceneProblem::EmptyList { what })
+    }
+
+    /// A name that can be a column or part of a file name, and is not among `used`.
+    pub(super) fn name(&self, path: &str, name: &str, used: &mut Vec<String>) -> Result<(), SceneError> {
+        let good =
+            !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+        self.ensure(good, path, || SceneProblem::BadName { name: name.to_owned() })?;
+        let fresh = !used.iter().any(|other| other == name);
+        self.ensure(fresh, path, || SceneProblem::DuplicateName { name: name.to_owned() })?;
+        used.push(name.to_owned());
+        Ok(())
+    }
+
+    /// A shape with an inside that reaches into the box.
+    pub(super) fn shape(
+        &self,
+        path: &str,
+        shape: &Shape,
+        size_m: [f64; 3],
+        inverted: bool,
+    ) -> Result<(), SceneError> {
+        match shape {
+            Shape::Box { min_m, max_m } => {
+                for axis in Axis::ALL {
+                    let (low, high) = (min_m[axis.index()], max_m[axis.index()]);
+                    self.ensure(low < high, &format!("{path}.box"), || SceneProblem::EmptyInterval {
+                        axis: axis.letter(),
+                        low,
+                        high,
+                    })?;
+                }
+            }
+            Shape::Cylinder { direction, radius_m, length_m, .. } => {
+                let along = format!("{path}.cylinder.direction");
+                self.direction(&along, *direction, "[1, 0, 0] for a cylinder along x")?;
+                self.radius(&format!("{path}.cylinder.radius_m"), *radius_m)?;
+                if let Some(length) = length_m {
+                    let path = format!("{path}.cylinder.length_m");
+                    self.positive(&path, *length, "m", EMPTY, "leave it out for an endless cylinder")?;
+                }
+            }
+            Shape::Sphere { radius_m, .. } => self.radius(&format!("{path}.sphere.radius_m"), *radius_m)?,
+            Shape::Polygon { axis, points_m, from_m, to_m } => {
+                let area = shape.polygon_area().unwrap_or(0.0);
+                let corners = points_m.len();
+                self.ensure(corners >= 3 && area > 0.0, &format!("{path}.polygon.points_m"), || {
+                    SceneProblem::FlatPolygon { corners, area }
+                })?;
+                if let (Some(low), Some(high)) = (*from_m, *to_m) {
+                    self.ensure(low < high, &format!("{path}.polygon"), || SceneProblem::EmptyInterval {
+                        axis: axis.letter(),
+                        low,
+                        high,
+                    })?;
+                }
+            }
+            _ => {}
+        }
+        self.more_shapes(path, shape, size_m)?;
+        if inverted { Ok(()) } else { self.reaches_box(path, shape, size_m) }
+    }
+
+    /// Cones, half-spaces, terrain and combinations.
+    fn more_shapes(&self, path: &str, shape: &Shape, size_m: [f64; 3]) -> Result<(), SceneError> {
+        let parts = |key: &str, parts: &[Shape], inverted| {
+            let path = format!("{path}.{key}");
+            self.ensure(!parts.is_empty(), &path, || SceneProblem::NoPart)?;
+            let mut each = parts.iter().enumerate();
+            each.try_for_each(|(i, part)| self.shape(&format!("{path}[{i}]"), part, size_m, inverted))
+        };
+        match shape {
+            Shape::Cone { direction, height_m, base_radius_m, top_radius_m, .. } => {
+                let path = format!("{path}.cone");
+                self.direction(
+                    &format!("{path}.direction"),
+                    *direction,
+                    "[0, 0, 1] for a cone that stands on z",
+                )?;
+                let way_out = "a height of at least one cell";
+                self.positive(&format!("{path}.height_m"), *height_m, "m", EMPTY, way_out)?;
+                let way_out = "0 for a tip";
+                let because = "it is a radius";
+                self.not_negative(&format!("{path}.base_radius_m"), *base_radius_m, "m", because, way_out)?;
+                self.not_negative(&format!("{path}.top_radius_m"), *top_radius_m, "m", because, way_out)?;
+                let greatest = base_radius_m + top_radius_m;
+                self.radius(&format!("{path}.base_radius_m"), greatest)
+            }
+            Shape::HalfSpace { normal, .. } => {
+                let path = format!("{path}.half_space.normal");
+                self.direction(&path, *normal, "[0, 0, 1] for everything below a level")
+            }
+            Shape::Heightfield(field) => {
+                let path = format!("{path}.heightfield");
+                let way_out = "the distance between two heights";
+                self.positive(
+                    &format!("{path}.spacing_m"),
+                    field.spacing_m,
+                    "m",
+                    "it is a distance",
+                    way_out,
+                )?;
+                let rows: Vec<usize> = field.heights_m.iter().map(Vec::len).collect();
+                let first = rows.first().copied().unwrap_or(0);
+                let even = first > 0 && rows.iter().all(|&n| n == first);
+                self.ensure(even, &format!("{path}.heights_m"), || SceneProblem::UnevenRows {
+                    rows: rows.len(),
+                    first,
+                    other: rows.iter().copied().find(|&n| n != first).unwrap_or(0),
+                })
+            }
+            Shape::Union(shapes) => parts("union", shapes, false),
+            // Parts may reach beyond the box; what they have in common may not be outside.
+            Shape::Intersection(shapes) => parts("intersection", shapes, true),
+            Shape::Difference { from, minus } => {
+                self.shape(&format!("{path}.difference.from"), from, size_m, false)?;
+                parts("difference.minus", minus, true)
+            }
+            Shape::Box { .. } | Shape::Cylinder { .. } | Shape::Sphere { .. } | Shape::Polygon { .. } => {
+                Ok(())
+            }
+        }
+    }
+
+    fn direction(&self, path: &str, direction: [f64; 3], way_out: &'static str) -> Result<(), SceneError> {
+        self.ensure(direction != [0.0; 3], path, || SceneProblem::ZeroVector { way_out })
+    }
+
+    fn radius(&self, path: &str, radius: f64) -> Result<(), SceneError> {
+        self.positive(path, radius, "m", EMPTY, "a radius of at least one cell")
+    }
+
+    pub(super) fn reaches_box(&self, path: &str, shape: &Shape, size_m: [f64; 3]) -> Result<(), SceneError> {
+        let bounds = shape.bounds();
+        for axis in Axis::ALL {
+            let a = axis.index();
+            let (low, high, size) = (bounds.min[a], bounds.max[a], size_m[a]);
+            self.ensure(low < size && high > 0.0, path, || SceneProblem::OutsideDomain {
+                axis: axis.letter(),
+                low,
+                high,
+                size,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// A point inside the box.
+    pub(super) fn point(&self, path: &str, point: [f64; 3], size_m: [f64; 3]) -> Result<(), SceneError> {
+        for axis in Axis::ALL {
+            self.position(path, axis, point[axis.index()], size_m)?;
+        }
+        Ok(())
+    }
+
+    /// A coordinate inside the box.
+    pub(super) fn position(
+        &self,
+        path: &str,
+        axis: Axis,
+        at: f64,
+        size_m: [f64; 3],
+    ) -> Result<(), SceneError> {
+        let size = size_m[axis.index()];
+        self.ensure((0.0..=size).contains(&at), path, || SceneProblem::OutsideDomain {
+            axis: axis.letter(),
+            low: at,
+            high: at,
+            size,
+        })
+    }
+}
+
+const EMPTY: &str = "else nothing is inside the shape";

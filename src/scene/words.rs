@@ -1,0 +1,55 @@
+//! Pieces of messages about scenes.
+
+pub(super) fn range(low: f64, high: f64) -> String {
+    if high == f64::INFINITY { format!("at least {low}") } else { format!("{low} to {high}") }
+}
+
+pub(super) fn with_space(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+}
+
+pub(super) fn did_you_mean(nearest: Option<&String>) -> String {
+    nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+}
+
+pub(super) fn rename_or_remove(nearest: Option<&String>) -> String {
+    nearest.map_or_else(|| "remove it".to_owned(), |name| format!("rename it to `{name}`"))
+}
+
+pub(super) fn rename_or_add(nearest: Option<&String>) -> String {
+    nearest.map_or_else(|| "name one of `solids`".to_owned(), |name| format!("write `{name}`"))
+}
+
+pub(super) fn rename_or_define(nearest: Option<&String>, kind: &str) -> String {
+    nearest.map_or_else(|| format!("name a {kind} of the scene, or add it"), |name| format!("write `{name}`"))
+}
+
+pub(super) fn choose(nearest: Option<&String>, allowed: &[String]) -> String {
+    nearest.or(allowed.first()).map_or_else(String::new, |name| format!("write `{name}`"))
+}
+
+pub(super) fn list(names: &[String]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+pub(super) fn list_static(names: &[&str]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+pub(super) fn found_keys(names: &[&str]) -> String {
+    if names.is_empty() { "none".to_owned() } else { list_static(names) }
+}
+
+/// Names, or what is said where there are none.
+pub(super) fn list_or(names: &[String], none: &str) -> String {
+    if names.is_empty() { none.to_owned() } else { list(names) }
+}
+
+/// A way out of a wrong type; `found` is as the parser says it, with the type first.
+pub(super) fn right_type(found: &str) -> &'static str {
+    if found.starts_with("string") {
+        "write numbers without quotation marks; choices are written as in `lahar schema`"
+    } else {
+        "see `lahar schema` for what belongs here"
+    }
+}

@@ -1,0 +1,25 @@
+//! Bytes of the arrays of the plain backend, for the prediction of `plan`; `tests/memory.rs` compares them with what a
+//! run holds.
+
+use crate::boundary::links::BoundaryCell;
+use crate::lattice::Q;
+
+const NUMBER: u64 = size_of::<f64>() as u64;
+const VECTOR: u64 = size_of::<[f64; 3]>() as u64;
+
+/// Of a cell: two copies of the populations.
+pub const POPULATIONS: u64 = 2 * Q as u64 * NUMBER;
+/// Of a cell: what it is for streaming.
+pub const NEIGHBOURS: u64 = size_of::<u32>() as u64;
+/// Of one coordinate of an axis: upstream offsets.
+pub const AXIS: u64 = 3 * size_of::<usize>() as u64;
+/// Of a cell with a link that is not regular.
+pub const RECORD: u64 = size_of::<BoundaryCell>() as u64;
+/// Of such a cell: what the wall correction keeps.
+pub const CORRECTION: u64 = Q as u64 * NUMBER;
+/// Of a cell: ω⁺ of the previous step.
+pub const LAG: u64 = NUMBER;
+/// Of a cell below a free surface or among grains: kind, touched kinds, mass, fill now and at time 0, and velocity.
+pub const SURFACE: u64 = 1 + 1 + NUMBER + NUMBER + NUMBER + VECTOR;
+/// Of a cell below a free surface: smoothed acceleration and the velocity it is made from.
+pub const INERTIA: u64 = VECTOR + VECTOR;
