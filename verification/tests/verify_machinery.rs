@@ -3,7 +3,7 @@
 use lahar::setup::Setup;
 use lahar::solver::run::{Backend, Run, StartError};
 use lahar_verification::claim::{
-    Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
 };
 use lahar_verification::evaluate::evaluate;
 use lahar_verification::exhibit::{Exhibit, ExhibitData, Table};
@@ -68,6 +68,7 @@ const QUADRATURE: Claim = Claim {
     tolerance: Tolerance {
         value: 0.5 / 256.0 + 1e-12,
         at: Rung::At(16.0),
+        basis: Basis::Derived,
         because: "the rule's error is N⁻²/2, plus rounding",
     },
     kind: Kind::Verification,

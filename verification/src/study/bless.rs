@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use super::{Options, Results, Study};
 use crate::golden::{
-    Difference, Golden, GoldenError, Shelf, compare, compare_exhibits, compare_mutants, merge, today, write,
+    Difference, Evaluation, Golden, GoldenError, Shelf, compare, compare_exhibits, compare_mutants, merge,
+    revision, today, write,
 };
 use lahar::output::atomic;
 
@@ -89,9 +90,12 @@ pub(super) fn bless(
         let old = golden.record(claim.id)?;
         records.push((claim.id, merge(claim, record, old.as_ref(), study.agreement)?));
     }
+    let mut evaluations = golden.evaluations()?;
     for (id, record) in records {
         write(&golden.path(Shelf::Records, id), &record)?;
+        evaluations.0.insert(id.to_owned(), Evaluation::now(options.depth()));
     }
+    write(&golden.evaluated(), &evaluations)?;
     let mut grown = Vec::new();
     for (exhibit, record) in &results.exhibits {
         let Ok(record) = record else { continue };
@@ -130,7 +134,8 @@ fn log(
     };
     let full = if options.full { " --full" } else { "" };
     let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
-    let _ = write!(text, "\n## {}{}: study-{}{full}\n\n{reason}\n\n", today(), revision(), study.id);
+    let after = revision().map_or_else(String::new, |r| format!(", after revision {r}"));
+    let _ = write!(text, "\n## {}{after}: study-{}{full}\n\n{reason}\n\n", today(), study.id);
     if lines.is_empty() {
         text.push_str("- no number changed\n");
     }
@@ -138,11 +143,4 @@ fn log(
         let _ = writeln!(text, "{line}");
     }
     Ok(atomic::write(&path, text.as_bytes())?)
-}
-
-/// `, revision abc1234`, if the working copy is under git.
-fn revision() -> String {
-    let git = std::process::Command::new("git").args(["rev-parse", "--short", "HEAD"]).output();
-    let text = git.ok().filter(|o| o.status.success()).and_then(|o| String::from_utf8(o.stdout).ok());
-    text.map_or_else(String::new, |t| format!(", after revision {}", t.trim()))
 }

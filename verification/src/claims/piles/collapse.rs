@@ -3,7 +3,7 @@
 use super::column::{Deposit, collapse};
 use super::refused;
 use super::support::{Matter, mean};
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::exhibit::{Exhibit, ExhibitData, Table};
 use lahar::output::plot::{Axis, Plot, Series};
 use lahar::solver::run::Backend;
@@ -34,6 +34,7 @@ pub const RUN_OUT: Claim = Claim {
     tolerance: Tolerance {
         value: 0.35,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "the experiments differ by 14 per cent to either side of their middle; the two definitions of the front differ by \
                   15 to 20 per cent in columns 10 diameters wide. Balmforth & Kerswell 2005, doi:10.1017/S0022112005005537, find the \
                   prefactor to depend on the material",

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::channel::{Scale, run_steady};
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::exact::couette::PlaneCouette;
 use crate::exact::taylor_couette::TaylorCouette;
 use lahar::collision::{CollisionChoice, OddRate};
@@ -42,6 +42,7 @@ pub const NEWTONIAN: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-11,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "without a force the half-way wall has no slip at any τ; the run stops at a change of 1e-13 of U per \
                   500 steps, of which the slowest mode (N²/π²ν = 1600 steps at τ = 0.55) leaves four times as much, \
                   and rounding is 1e-14",
@@ -82,6 +83,7 @@ pub const ALL_LAWS: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-7,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "the Mach term is of the order of the squared wall velocity, 1e-8, times a few where σ hardly \
                   depends on γ̇; the run is steady to 1e-12 per 1000 steps",
     },
@@ -123,6 +125,7 @@ pub const SHEAR_RATE: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-7,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "the cubic terms that the equilibrium lacks: of the order of the squared wall velocity, (2e-4)² = 4e-8; rounding is 1e-16 of U = 2e-4",
     },
     kind: Kind::Verification,
@@ -183,6 +186,7 @@ pub const TAYLOR: Claim = Claim {
     tolerance: Tolerance {
         value: 3.0,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "first order: the staircase puts a wall up to half a cell from its place; the shear there, 5Ω/3 over the \
                   root mean square 0.28ΩR of u_θ, makes that 3/R",
     },

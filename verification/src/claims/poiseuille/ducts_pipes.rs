@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use super::channel::{BINGHAM, Steady, THESIS, run_steady};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use crate::exact::duct::RectangularDuct;
 use crate::exact::flow_curve::FlowCurve;
 use crate::exact::pipe::Pipe;
@@ -30,6 +32,7 @@ pub const SQUARE_DUCT: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-3,
         at: Rung::At(24.0),
+        basis: Basis::Derived,
         because: "truncation Δx²/12 of the fourth derivatives, of order G/(μ h²): (1/12)(2/24)²·4 = 2.3e-3 of u_max at \
                   most, and they are that large only near the corners",
     },
@@ -177,6 +180,7 @@ pub const PIPE: Claim = Claim {
     tolerance: Tolerance {
         value: 0.29,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "a wall displaced by δ changes u by Gδ R/(2μ), 2√3 δ/R of its root mean square; δ is half a cell at most, \
                   1.73/R = 0.29 at R = 6, and about a tenth of one on average",
     },
@@ -209,6 +213,7 @@ pub const PIPE_BINGHAM: Claim = Claim {
     tolerance: Tolerance {
         value: 3.1,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "first order: half a cell of wall displacement times the wall shear rate 2.5 (wall stress and radius 1), \
                   over the root mean square velocity 0.65·0.625",
     },
@@ -231,6 +236,7 @@ pub const PIPE_HB: Claim = Claim {
     tolerance: Tolerance {
         value: 5.8,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "first order: half a cell of wall displacement times the wall shear rate 16.06, over the root mean square \
                   velocity 0.7·1.993",
     },

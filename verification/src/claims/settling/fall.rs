@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::claims::immersed::{grains, immersed, numerics, sphere};
 use crate::exact::suspension::ten_cate;
 use lahar::coupling::{GrainWall, Suspension};
@@ -99,6 +99,7 @@ pub const TEN_CATE: Claim = Claim {
     tolerance: Tolerance {
         value: 0.07,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "0.25/R^2 = 0.06 of the drag at R = 2.1 cells, and 1 % of the experiment",
     },
     kind: Kind::Validation,
@@ -160,6 +161,7 @@ pub const DRAFTING: Claim = Claim {
     tolerance: Tolerance {
         value: 0.05,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "a twentieth of a diameter counts as met: below a third of a cell",
     },
     kind: Kind::Validation,

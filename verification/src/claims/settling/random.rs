@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::arrays::TRT;
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::claims::immersed::{UNITS, exact, grains, immersed, numerics, periodic, sphere, volume};
 use crate::exact::suspension::settling::{
     BROWNIAN_EXPONENT, hayakawa_ichiki, periodic_box_deficit, richardson_zaki, richardson_zaki_exponent,
@@ -160,6 +160,7 @@ pub const SETTLING: Claim = Claim {
     tolerance: Tolerance {
         value: 0.08,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "of u0: three standard errors of 16 boxes (0.02 each), and c/N = 0.02 that the correction for the box leaves",
     },
     kind: Kind::Validation,

@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use lahar::collision::{CollisionChoice, OddRate};
 use lahar::stability::table::{OPERATORS, Row, table};
 use lahar::stability::{
@@ -155,6 +157,7 @@ pub const TABLE: Claim = Claim {
     tolerance: Tolerance {
         value: 0.1,
         at: Rung::Every,
+        basis: Basis::Reference,
         because: "below tau = 0.55 repeated searches of the reference scatter by 10 %: the growing waves fill thin shells in k",
     },
     kind: Kind::Verification,
@@ -174,6 +177,7 @@ pub const TABLE_HIGH: Claim = Claim {
     tolerance: Tolerance {
         value: 5e-3,
         at: Rung::Every,
+        basis: Basis::Reference,
         because: "the reference refines a grid of waves to about 1e-3 in speed and prints four digits; 5 of its units of scatter",
     },
     kind: Kind::Verification,
@@ -196,6 +200,7 @@ pub const TABLE_COARSE: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-3,
         at: Rung::Every,
+        basis: Basis::Reference,
         because: "one unit of the last printed digit of the bound at 0.42",
     },
     kind: Kind::Verification,
@@ -227,7 +232,7 @@ pub const CERTIFICATE: Claim = Claim {
         full: &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0],
     },
     order: None,
-    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "a count" },
+    tolerance: Tolerance { value: 0.0, at: Rung::Every, basis: Basis::Derived, because: "a count" },
     kind: Kind::Verification,
     measure: |_, parameter| {
         let (_, collision) = OPERATORS.get(parameter as usize).copied().unwrap_or(OPERATORS[0]);
@@ -268,6 +273,7 @@ pub const QUARTER: Claim = Claim {
     tolerance: Tolerance {
         value: 0.1,
         at: Rung::Every,
+        basis: Basis::Reference,
         because: "below tau = 0.55 repeated searches of the reference scatter by 10 %",
     },
     kind: Kind::Verification,
@@ -323,7 +329,12 @@ pub const ODD_RATE: Claim = Claim {
     metric: Metric::Relative,
     ladder: Ladder { parameter: "tau minus", short: &[0.75], full: &[0.501, 0.55, 0.6, 0.75, 1.0, 1.5, 3.0] },
     order: None,
-    tolerance: Tolerance { value: 0.1, at: Rung::Every, because: "scatter of the reference's search over k" },
+    tolerance: Tolerance {
+        value: 0.1,
+        at: Rung::Every,
+        basis: Basis::Reference,
+        because: "scatter of the reference's search over k",
+    },
     kind: Kind::Verification,
     measure: |_, tau_minus| {
         let found = at_odd_time(tau_minus)?;
@@ -365,6 +376,7 @@ pub const REST: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-8,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "eigenvalues of modulus one that nearly coincide come out with the square root of the rounding, 1e-8",
     },
     kind: Kind::Verification,
@@ -396,6 +408,7 @@ pub const RIGID: Claim = Claim {
     tolerance: Tolerance {
         value: 0.1,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "an error of the operator of the order U², 0.04 at the largest speed of the ladder, with a coefficient of at most 2.5",
     },
     kind: Kind::PredictedFailure,
@@ -430,6 +443,7 @@ pub const RATES: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-12,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "eigenvalues of modulus one with condition below 1e3, each computation with a few hundred roundings of 1e-16",
     },
     kind: Kind::Verification,

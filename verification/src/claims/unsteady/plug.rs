@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use super::support::{from_middle, largest};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use crate::exact::flow_curve::FlowCurve;
 use crate::exact::poiseuille::Channel;
 use lahar::rheology::Law;
@@ -129,6 +131,7 @@ const fn claim(
         tolerance: Tolerance {
             value: 1.0 / 64.0,
             at: Rung::Every,
+            basis: Basis::AfterSeeing,
             because: "second order in the 8 cells of half a plug",
         },
         kind: Kind::PredictedFailure,
