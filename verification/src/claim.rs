@@ -9,7 +9,7 @@ use lahar::output::number;
 use lahar::solver::run::{Backend, StartError, Stopped};
 
 /// One checkable statement.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Claim {
     /// Unique, kebab-case: `poiseuille-bingham-l2`.
     pub id: &'static str,

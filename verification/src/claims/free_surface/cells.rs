@@ -154,7 +154,7 @@ fn carried(backend: &dyn Backend, density: f64) -> Result<Sample, VerifyError> {
 pub const CARRIED: Claim = Claim {
     id: "surface-pattern-carried",
     title: "A pattern of fills on a uniform flow is carried at 5/6 of the flow, whatever the density",
-    tags: &["F1", "000 Eq 12", "001 Eq 11"],
+    tags: &["F1", "000 Eq 12", "001 Eq 12"],
     measures: "phase speed of the first mode over 128 steps, over the flow speed and the central difference's own lag",
     reference: Reference {
         source: "links of the layer itself and of its mirror image carry 4/6 + 1/6 of the flow; the 1/6 on links to the \
