@@ -237,6 +237,7 @@ fn report_shows_claims_mutants_limits_and_unchecked_equations() {
         record,
         basis: claim.tolerance.basis,
         declared: [claim.ladder.full, &[64.0]].concat(),
+        short: claim.ladder.short.to_vec(),
         evaluation: Some(evaluation.clone()),
     };
     let tried = |(_, record)| Tried { record, in_solver: false };

@@ -35,6 +35,8 @@ pub struct Entry {
     pub basis: Basis,
     /// All rungs that it declares.
     pub declared: Vec<f64>,
+    /// The rungs that `cargo test` evaluates.
+    pub short: Vec<f64>,
     /// When and how far it was last evaluated.
     pub evaluation: Option<Evaluation>,
 }
@@ -48,6 +50,13 @@ pub struct Tried {
 }
 
 impl Entry {
+    /// Rungs with a result that no test evaluates.
+    #[must_use]
+    pub fn unwatched(&self) -> usize {
+        let watched = |p: f64| self.short.iter().any(|s| s.to_bits() == p.to_bits());
+        self.record.samples.iter().filter(|s| !watched(s.parameter)).count()
+    }
+
     /// Declared rungs without a result.
     #[must_use]
     pub fn open_rungs(&self) -> Vec<f64> {
@@ -95,6 +104,7 @@ impl Chapter {
                 record: rejudge(claim, &record.samples),
                 basis: claim.tolerance.basis,
                 declared: claim.ladder.full.to_vec(),
+                short: claim.ladder.short.to_vec(),
                 evaluation: evaluations.0.get(claim.id).cloned(),
             });
         }

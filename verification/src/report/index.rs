@@ -85,6 +85,13 @@ fn state(out: &mut String, chapters: &[Chapter]) {
         ladders::FILE
     );
     item(out, &text);
+    let all: usize = entries.iter().map(|c| c.record.samples.len()).sum();
+    let unwatched: usize = entries.iter().map(|c| c.unwatched()).sum();
+    let text = format!(
+        "{unwatched} of {all} golden rungs are on no short ladder, and no test computes the exhibits: these numbers are as \
+         good as the last run of their study."
+    );
+    item(out, &text);
     out.push('\n');
 }
 

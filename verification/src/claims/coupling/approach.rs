@@ -80,7 +80,7 @@ struct Found {
     spread: f64,
 }
 
-/// The same without the images of the pair, whose effect falls like that of a stresslet: with the volume of the box.
+/// Mean forces at a gap without the images of the pair, whose effect falls like that of a stresslet: with the volume of the box.
 fn forces(
     backend: &dyn Backend,
     radius: f64,
@@ -105,7 +105,7 @@ fn forces(
     Ok(Found { lattice, lubrication, spread: variance.max(0.0).sqrt() })
 }
 
-/// Both together against the series. `mutant`: with what is wrong.
+/// Force of lattice and lubrication together against the exact series. `mutant`: with what is wrong.
 pub fn approach(backend: &dyn Backend, gap: f64, mutant: Wrong) -> Result<Sample, VerifyError> {
     let found = forces(backend, RADIUS, gap, Some(Lubrication::default()), mutant)?;
     let sum = found.lattice + found.lubrication;
@@ -118,7 +118,7 @@ pub fn approach(backend: &dyn Backend, gap: f64, mutant: Wrong) -> Result<Sample
 /// H16.
 pub const APPROACH: Claim = Claim {
     id: "lubrication-approach",
-    title: "Two spheres approaching feel the force of the exact series at any gap",
+    title: "Two equal spheres approaching feel the force of the exact series within 5 %, with a cut-off fitted to it",
     tags: &["C5", "000 Eq 15"],
     measures: "force over 6 pi mu R U, R = 4 cells, interpolated surface, lubrication below 0.74 cells, mean over 128 places within \
                a cell (12 different ones); two periodic boxes, extrapolated in 1/volume",

@@ -125,9 +125,8 @@ pub const NOISE: Exhibit = Exhibit {
     run: noise,
 };
 
-fn noise(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
-    let (cells, steps) = if full { (32, 4000) } else { (20, 1000) };
-    let mut table = Table::new(
+fn noise_table() -> Table {
+    Table::new(
         "Noise of the force",
         &[
             "surface",
@@ -138,7 +137,12 @@ fn noise(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> 
             "at u_y/dx",
             "largest elsewhere",
         ],
-    );
+    )
+}
+
+fn noise(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
+    let (cells, steps) = if full { (32, 4000) } else { (20, 1000) };
+    let mut table = noise_table();
     let mut plot = Plot::new(
         "Spectrum of the force",
         Axis::linear("frequency", "u_x/dx"),

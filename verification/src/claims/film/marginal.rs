@@ -24,7 +24,7 @@ fn film(share: f64) -> Film<Law> {
     Film { law, thickness: share * critical, density: RHO, gravity: G, slope: SLOPE }
 }
 
-/// The same on `cells` cells, Δt from 3 g H Δt²/Δx² = 0.02, and its units.
+/// The film on `cells` cells, Δt from 3 g H Δt²/Δx² = 0.02, and its units.
 fn sheet(film: &Film<Law>, cells: f64) -> (Sheet, Units) {
     let dx = film.thickness / cells;
     let dt = dx * (0.02 / (3.0 * G * film.thickness)).sqrt();

@@ -185,7 +185,7 @@ fn descend(young: f64, mu: f64, theta: f64, steps: u64) -> Result<Descent, Verif
     })
 }
 
-/// Both sides of the threshold.
+/// Acceleration down a slope below and above the threshold of slip.
 pub const INCLINE: Claim = Claim {
     id: "incline-acceleration",
     title: "Down a slope a sphere rolls or slips with the right acceleration",

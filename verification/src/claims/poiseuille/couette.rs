@@ -29,7 +29,7 @@ fn between_walls(law: Law, density: f64, low: f64, high: f64, developed: bool) -
     setup
 }
 
-/// Both walls moving, BGK.
+/// A Newtonian fluid between two moving walls, BGK.
 pub const NEWTONIAN: Claim = Claim {
     id: "couette-newtonian",
     title: "A Newtonian fluid between two moving walls has the exact linear profile",
@@ -172,7 +172,7 @@ pub fn shear_rate(
 /// Rotating inner cylinder.
 pub const TAYLOR: Claim = Claim {
     id: "taylor-couette",
-    title: "Flow around a rotating cylinder, on a staircase of cells",
+    title: "Around a rotating cylinder on a staircase of cells the error is at most 3/R: 5 % at R = 8 and still at 16",
     tags: &["B1", "K2", "ERRATA 18", "004 Eq 3.38"],
     measures: "relative L2 error of u_θ times R in cells, between cylinders of radius R/2 (rotating) and R (at rest), TRT Λ = 3/16, τ = 1",
     reference: Reference { source: "u_θ = A r + B/r (Landau & Lifshitz, §18)", uncertainty: 0.0 },

@@ -203,7 +203,7 @@ pub const PIPE: Claim = Claim {
 /// Bingham pipe.
 pub const PIPE_BINGHAM: Claim = Claim {
     id: "pipe-bingham",
-    title: "Bingham pipe flow against Buckingham-Reiner",
+    title: "In a Bingham pipe on a staircase of cells the error is at most 3.1/R: 12 % at R = 6, 3 % at 14",
     tags: &["Y3", "K3", "B1"],
     measures: "relative L2 error of the velocity times R in cells, half-way walls, plug half of the radius, Δt/Δx² = 0.5",
     reference: Reference { source: "Buckingham 1921, Reiner 1926", uncertainty: 0.0 },
@@ -226,7 +226,7 @@ pub const PIPE_BINGHAM: Claim = Claim {
 /// Herschel-Bulkley pipe.
 pub const PIPE_HB: Claim = Claim {
     id: "pipe-herschel-bulkley",
-    title: "Herschel-Bulkley pipe flow (n = 0.33)",
+    title: "In a Herschel-Bulkley pipe (n = 0.33) on a staircase of cells the error is at most 5.8/R: 32 % at R = 6, 2.5 % at 44",
     tags: &["Y3", "K3", "B1"],
     measures: "relative L2 error of the velocity times R in cells, half-way walls, plug half of the radius, Δt/Δx² = 2",
     reference: Reference { source: "Q = (8π/G³)∫σ²γ̇ dσ (Rabinowitsch 1929)", uncertainty: 0.0 },

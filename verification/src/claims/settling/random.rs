@@ -71,7 +71,7 @@ impl RandomBox {
     /// What a backend is given.
     ///
     /// # Errors
-    /// As [`scatter`].
+    /// The spheres do not fit, as for [`scatter`].
     pub fn setup(&self) -> Result<Setup, VerifyError> {
         let n = self.edge();
         let balls = scatter(self.count, n, self.seed)?.into_iter().map(|x| sphere(RADIUS, x)).collect();
@@ -150,7 +150,7 @@ fn few(backend: &dyn Backend, c: f64) -> Result<Sample, VerifyError> {
 /// A few boxes.
 pub const SETTLING: Claim = Claim {
     id: "random-boxes-settling",
-    title: "Random boxes settle with the mean speed of random suspensions",
+    title: "Random boxes settle with the mean speed of random suspensions to 8 % of the speed of one sphere",
     tags: &["C2", "C5", "C6"],
     measures: "u/u0, mean of 16 boxes of 8 spheres, corrected for the size of the box; R = 2.5 cells",
     reference: Reference { source: "Hayakawa & Ichiki 1995, low Reynolds number", uncertainty: 0.03 },

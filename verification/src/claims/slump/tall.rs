@@ -182,21 +182,8 @@ const VARIANTS: [Variant; 7] = [
     Variant { name: "theta = 0.1", change: |setup| setup.collision = central(0.1) },
 ];
 
-fn standing(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
-    let mut table = Table::new(
-        "Creep of columns that should stand",
-        &[
-            "N (cells in the height)",
-            "radius [cells]",
-            "sigma0 [rho g H]",
-            "compression 3 g H dt2/dx2",
-            "rule",
-            "sunk by step 1000 [H]",
-            "sunk by step 2000 [H]",
-            "creep [cells per step]",
-            "creep over g dt (H/R)2 [-]",
-        ],
-    );
+/// Cells in the height, heap, and place of the variant.
+fn standing_cases(full: bool) -> Vec<(f64, Heap, usize)> {
     let base = Heap { yield_stress: 1.2, ..COLUMN };
     let narrow = Heap { top: 0.25, base: 0.25, reach: 0.6, ..base };
     let mut cases = vec![
@@ -214,7 +201,25 @@ fn standing(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyErro
     if full {
         cases.extend([(24.0, narrow, 0), (24.0, base, 0), (24.0, base, 5)]);
     }
-    for (n, heap, variant) in cases {
+    cases
+}
+
+fn standing(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
+    let mut table = Table::new(
+        "Creep of columns that should stand",
+        &[
+            "N (cells in the height)",
+            "radius [cells]",
+            "sigma0 [rho g H]",
+            "compression 3 g H dt2/dx2",
+            "rule",
+            "sunk by step 1000 [H]",
+            "sunk by step 2000 [H]",
+            "creep [cells per step]",
+            "creep over g dt (H/R)2 [-]",
+        ],
+    );
+    for (n, heap, variant) in standing_cases(full) {
         let mut setup = heap.setup(n);
         let variant = &VARIANTS[variant];
         (variant.change)(&mut setup);

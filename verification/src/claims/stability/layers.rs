@@ -55,7 +55,7 @@ pub struct Layers {
     pub exact: f64,
     /// Largest relative departure of the shear stress from its mean, the two nodes at the jump left out.
     pub spread: f64,
-    /// The same at those two nodes.
+    /// Largest relative departure of the shear stress from its mean at the two nodes at the jump.
     pub spread_at_jump: f64,
 }
 

@@ -56,7 +56,7 @@ fn populations(run: &dyn Run) -> Vec<[f64; Q]> {
 pub struct History {
     /// Root mean square of the noise in the run.
     pub measured: Vec<f64>,
-    /// The same by linear evolution of the same start.
+    /// Root mean square that the linear evolution of the same start predicts.
     pub predicted: Vec<f64>,
 }
 
@@ -156,7 +156,7 @@ pub const TRT_GROWS: Claim = Claim {
     },
 };
 
-/// The same stream with one relaxation time decays.
+/// With one relaxation time the noise in the stream decays.
 pub const BGK_DECAYS: Claim = Claim {
     id: "neumann-bgk-decays",
     title: "H1: with one relaxation time the same noise decays, at the rate linear theory gives",

@@ -28,7 +28,7 @@ pub struct Oblique {
 pub struct Plug {
     /// u(0) − u(y) over U, at every cell.
     pub lag: Vec<f64>,
-    /// The same predicted.
+    /// u(0) − u(y) over U, as the missing moment predicts it at every cell.
     pub predicted: Vec<f64>,
     /// σ0/(ρ c_s²), the elastic strain at yield: twice n_x n_z of it is predicted for the whole plug.
     pub strain: f64,

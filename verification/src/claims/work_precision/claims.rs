@@ -1,6 +1,6 @@
 //! What can be said about work in advance.
 
-use super::flows::{Outcome, Trial};
+use super::trial::{Outcome, Trial};
 use crate::claim::{
     Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
 };

@@ -20,7 +20,8 @@ use lahar::setup::{Face, Precision, Setup};
 use lahar::solver::fast::Fast;
 use lahar::solver::run::{Backend, Run, StartError};
 
-use super::flows::{SPEED, Trial};
+use super::flows::SPEED;
+use super::trial::Trial;
 
 /// The shorter precisions.
 const SHORTER: [Precision; 2] = [Precision::SingleStorage, Precision::Single];
@@ -132,7 +133,7 @@ pub const CHANNEL: Claim = Claim {
 /// What a backend makes of a flow.
 type Flow = Box<dyn Fn(&dyn Backend) -> Result<Vec<f64>, VerifyError>>;
 
-/// The same number from a run in each precision.
+/// How far a run in single precision is from one in double precision.
 fn flows(backend: &dyn Backend, number: f64) -> Result<Sample, VerifyError> {
     let case = [Case::ChannelBingham, Case::ChannelHerschelBulkley, Case::Vortex, Case::FilmBingham]
         [(number as usize).min(3)];
