@@ -42,7 +42,9 @@ fn links_lead_somewhere() {
     pages.extend(std::fs::read_dir(root.join("verification/report")).unwrap().map(|e| e.unwrap().path()));
     for page in pages {
         let text = std::fs::read_to_string(&page).unwrap();
-        for target in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+        let inline = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        let defined = text.lines().filter(|l| l.starts_with('[')).filter_map(|l| l.split_once("]: "));
+        for target in inline.chain(defined.map(|(_, target)| target)) {
             let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
             if file.contains("docs/") || file.starts_with("http") {
                 continue;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::chapter::{Chapter, Entry, Tried};
-use super::text::{code_list, escaped, first_sentence, item, paragraph, unstopped};
+use super::text::{beginning, code_list, escaped, first_sentence, item, paragraph, unstopped};
 use super::{FOLDER, equations, ladders, mutants, page};
 use crate::claim::{Basis, Kind};
 use crate::format::{scientific, table};
@@ -34,6 +34,9 @@ const READING: [&str; 6] = [
      [docs/references.md](docs/references.md). 000, 001 and 004 are the source papers.",
 ];
 
+/// Letters shown of a limit.
+const LIMIT: usize = 150;
+
 /// Makes the index.
 pub(super) fn render(chapters: &[Chapter]) -> String {
     let mut out = "# What the numbers are worth\n\n".to_owned();
@@ -46,7 +49,15 @@ pub(super) fn render(chapters: &[Chapter]) -> String {
     validation(&mut out, chapters);
     limits(&mut out, chapters);
     equations::counts(&mut out, chapters);
+    for (k, chapter) in chapters.iter().enumerate() {
+        let _ = writeln!(out, "[{}]: {FOLDER}/{}", k + 1, page::file(k, chapter));
+    }
     page::ended(out)
+}
+
+/// A chapter by number and title; where the link leads stands at the end of the page.
+fn link(k: usize, chapter: &Chapter) -> String {
+    format!("[{0}. {1}][{0}]", k + 1, chapter.title)
 }
 
 /// The only dated block: revisions, dates and machine of the numbers.
@@ -99,7 +110,7 @@ fn summary(out: &mut String, chapters: &[Chapter]) {
     out.push_str("## Summary\n\n");
     let mut rows: Vec<Vec<String>> = Vec::new();
     for (k, chapter) in chapters.iter().enumerate() {
-        let title = format!("[{}. {}]({FOLDER}/{})", k + 1, chapter.title, page::file(k, chapter));
+        let title = link(k, chapter);
         rows.push(row(
             title,
             &chapter.claims.iter().collect::<Vec<_>>(),
@@ -150,7 +161,7 @@ fn claims(out: &mut String, chapters: &[Chapter]) {
         if claims.is_empty() {
             continue;
         }
-        let _ = write!(out, "**[{}. {}]({FOLDER}/{})**\n\n", k + 1, chapter.title, page::file(k, chapter));
+        let _ = write!(out, "**{}**\n\n", link(k, chapter));
         claims.iter().for_each(|c| line(out, c));
         out.push('\n');
     }
@@ -178,7 +189,7 @@ fn validation(out: &mut String, chapters: &[Chapter]) {
     for (k, chapter) in chapters.iter().enumerate() {
         for entry in chapter.of(Kind::Validation) {
             line(out, entry);
-            let _ = writeln!(out, "  ([chapter {}]({FOLDER}/{}))", k + 1, page::file(k, chapter));
+            let _ = writeln!(out, "  (chapter {})", link(k, chapter));
         }
     }
     if chapters.iter().all(|c| c.of(Kind::Validation).is_empty()) {
@@ -187,13 +198,13 @@ fn validation(out: &mut String, chapters: &[Chapter]) {
     out.push('\n');
 }
 
-/// The first sentence of every limit, under the chapter that has the whole of it.
+/// The beginning of every limit, under the chapter that has the whole of it.
 fn limits(out: &mut String, chapters: &[Chapter]) {
     out.push_str("## Known limits by topic\n\n");
-    paragraph(out, "The first sentence of each; the chapters have the rest.");
+    paragraph(out, "The beginning of each; the chapters have the rest.");
     for (k, chapter) in chapters.iter().enumerate().filter(|(_, c)| !c.limits.is_empty()) {
-        let _ = write!(out, "**[{}]({FOLDER}/{}#known-limits)**\n\n", chapter.title, page::file(k, chapter));
-        chapter.limits.iter().for_each(|limit| item(out, first_sentence(limit)));
+        let _ = write!(out, "**{}**\n\n", link(k, chapter));
+        chapter.limits.iter().for_each(|limit| item(out, &beginning(first_sentence(limit), LIMIT)));
         out.push('\n');
     }
 }

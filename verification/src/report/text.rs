@@ -78,6 +78,23 @@ pub fn first_sentence(text: &str) -> &str {
     ends.next().map_or(text, |k| &text[..k])
 }
 
+/// The beginning of a text, of at most so many letters, cut between words.
+#[must_use]
+pub fn beginning(text: &str, letters: usize) -> String {
+    if text.chars().count() <= letters {
+        return text.to_owned();
+    }
+    let cut: String = text.chars().take(letters).collect();
+    let words = cut.rsplit_once(' ').map_or(cut.as_str(), |(words, _)| words);
+    // A piece of code is not left open.
+    let closed = if words.matches('`').count() % 2 == 1 {
+        words.rsplit_once('`').map_or("", |(w, _)| w)
+    } else {
+        words
+    };
+    format!("{} …", closed.trim_end())
+}
+
 /// `speed-against-error` becomes `Speed against error`.
 #[must_use]
 pub fn heading(id: &str) -> String {
@@ -122,6 +139,8 @@ mod tests {
     fn sentences_and_anchors() {
         assert_eq!(first_sentence("At Re = 0.1 it is 5 %. Then more."), "At Re = 0.1 it is 5 %.");
         assert_eq!(first_sentence("only one"), "only one");
+        assert_eq!(beginning("one two three", 9), "one two …");
+        assert_eq!(beginning("one `two three`", 10), "one …");
         assert_eq!(anchor("poiseuille-clamped-0.6"), "poiseuille-clamped-06");
         assert_eq!(anchor("Known limits"), "known-limits");
     }
