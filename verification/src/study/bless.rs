@@ -49,11 +49,23 @@ impl Change {
     /// The line of the log; `None` if nothing changed.
     fn line(&self) -> Option<String> {
         let Some(differences) = &self.differences else { return Some(format!("- `{}`: new", self.id)) };
-        let worse = |a: &Difference, b: &Difference| a.relative.total_cmp(&b.relative);
-        let numbers = differences.iter().filter(|d| d.relative.is_finite());
-        let worst = numbers.max_by(|a, b| worse(a, b)).or(differences.first())?;
-        Some(format!("- `{}`: {} places, worst {worst}", self.id, differences.len()))
+        let worst = worst(differences.iter()).or(differences.first())?;
+        // A residual of rounding may change by any factor; what was computed is named beside it.
+        let computed = worst_computed(differences).filter(|d| *d != worst);
+        let computed = computed.map_or_else(String::new, |d| format!("; of what was computed, {d}"));
+        Some(format!("- `{}`: {} places, worst {worst}{computed}", self.id, differences.len()))
     }
+}
+
+/// The largest relative change.
+fn worst<'a>(differences: impl Iterator<Item = &'a Difference>) -> Option<&'a Difference> {
+    let numbers = differences.filter(|d| d.relative.is_finite());
+    numbers.max_by(|a, b| a.relative.total_cmp(&b.relative))
+}
+
+/// The largest relative change of a number that a claim compares with its reference.
+fn worst_computed(differences: &[Difference]) -> Option<&Difference> {
+    worst(differences.iter().filter(|d| d.place.ends_with(", computed")))
 }
 
 /// Compares; prints what differs and what is missing. True if nothing differs.
