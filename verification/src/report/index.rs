@@ -68,9 +68,7 @@ fn state(out: &mut String, chapters: &[Chapter]) {
     let days = |pick: fn(Vec<&str>) -> Option<&str>| pick(runs.iter().map(|e| e.date.as_str()).collect());
     if let (Some(first), Some(last)) = (days(|d| d.into_iter().min()), days(|d| d.into_iter().max())) {
         let of_last = runs.iter().filter(|e| e.date == last).filter_map(|e| e.revision.as_deref());
-        let mut revisions: Vec<&str> = of_last.collect();
-        revisions.sort_unstable();
-        revisions.dedup();
+        let revisions = distinct(of_last);
         let full = runs.iter().filter(|e| e.depth == Depth::Full).count();
         let text = format!(
             "Recorded between {first} and {last}; on the last day at revision {}. {full} claims were last evaluated on \
@@ -80,13 +78,18 @@ fn state(out: &mut String, chapters: &[Chapter]) {
         );
         item(out, &text);
     }
-    let mut machines: Vec<&str> = runs.iter().filter_map(|e| e.machine.as_deref()).collect();
     let timed = chapters.iter().flat_map(|c| &c.exhibits).filter_map(|(_, r)| r.measured.as_ref());
-    machines.extend(timed.map(|m| m.machine.as_str()));
-    machines.sort_unstable();
-    machines.dedup();
-    if !machines.is_empty() {
-        item(out, &format!("Machine: {}.", machines.join("; ")));
+    let timed = distinct(timed.map(|m| m.machine.as_str()));
+    let known = distinct(runs.iter().filter_map(|e| e.machine.as_deref()));
+    if !timed.is_empty() || !known.is_empty() {
+        let or_unknown =
+            |list: Vec<&str>| if list.is_empty() { "unknown".to_owned() } else { list.join("; ") };
+        let text = format!(
+            "Machine of the claims: {}; of measured speeds: {}.",
+            or_unknown(known),
+            or_unknown(timed)
+        );
+        item(out, &text);
     }
     let open: Vec<usize> = chapters.iter().map(|c| ladders::incomplete(c).len()).collect();
     let rungs: usize = entries.iter().map(|c| c.open_rungs().len()).sum();
@@ -104,6 +107,10 @@ fn state(out: &mut String, chapters: &[Chapter]) {
     );
     item(out, &text);
     out.push('\n');
+}
+
+fn distinct<'a>(words: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    words.collect::<std::collections::BTreeSet<_>>().into_iter().collect()
 }
 
 fn summary(out: &mut String, chapters: &[Chapter]) {
