@@ -69,12 +69,14 @@ fn compose(root: &Area, plot: &Plot) -> Result<(), Box<dyn std::error::Error>> {
     }
     let x = Scale::new(plot.x.log, plot.series.iter().flat_map(|s| &s.points).map(|p| p[0]));
     let y = Scale::new(plot.y.log, plot.series.iter().flat_map(|s| &s.points).map(|p| p[1]));
+    // The space of a short label, or of the longest one and the axis' name.
+    let longest = y.ticks.iter().map(|(_, label)| label.chars().count()).max().unwrap_or(0);
     let mut chart = ChartBuilder::on(&body)
         .margin_right(24)
         .margin_top(6)
         .margin_left(6)
         .x_label_area_size(46)
-        .y_label_area_size(74)
+        .y_label_area_size((26 + 9 * longest as u32).max(74))
         .build_cartesian_2d(x.clone(), y.clone())?;
     chart
         .configure_mesh()

@@ -9,7 +9,7 @@ use lahar::output::number;
 use lahar::solver::run::{Backend, StartError, Stopped};
 
 /// One checkable statement.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Claim {
     /// Unique, kebab-case: `poiseuille-bingham-l2`.
     pub id: &'static str,
@@ -87,8 +87,24 @@ pub struct Tolerance {
     pub value: f64,
     /// Which rungs it applies to.
     pub at: Rung,
+    /// What it stands on.
+    pub basis: Basis,
     /// A rounding bound, a scheme constant times Δx^p, or the reference's uncertainty.
     pub because: &'static str,
+}
+
+/// What a tolerance stands on. Where it is in doubt, it is [`Basis::AfterSeeing`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Basis {
+    /// It follows from rounding, from the known error of the scheme or from what a theory leaves out; no
+    /// number of it was read off a run of lahar.
+    Derived,
+    /// It comes with the reference: its digits, its scatter, or the bound that a hard case asked for before
+    /// anything was measured.
+    Reference,
+    /// A number of it was read off runs of lahar, or was chosen without a derivation. It shows that the
+    /// error stays where it was found, not that it is as small as theory wants it.
+    AfterSeeing,
 }
 
 /// Which rungs a tolerance applies to.

@@ -4,32 +4,26 @@
 //! kernels depend on the processor, and are compared to 1e-9 relative; so are all numbers of a
 //! study that declares [`Agreement::Relative`] because its samples are eigenvalues.
 
-use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
 
-use super::claim::{Claim, Metric, Sample};
+use super::claim::{Claim, Sample};
 use super::evaluate::{Outcome, judge};
-use super::exhibit::{ExhibitData, ExhibitRecord, Measured};
+use super::exhibit::ExhibitRecord;
 use super::mutant::MutantRecord;
 use super::record::Record;
 use lahar::output::{OutputError, atomic};
 
-/// How closely numbers must agree with the golden ones.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Agreement {
-    /// Same bits (any NaN equals any NaN).
-    Bits,
-    /// |now − golden| ≤ this × the scale of the numbers; for results of processor-dependent kernels.
-    Relative(f64),
-}
+mod compare;
+mod evaluated;
+mod place;
 
-/// Agreement of fitted quantities: rounding of a least-squares solve (1e-14) with ample room.
-const FITTED: Agreement = Agreement::Relative(1e-9);
+pub use compare::{Agreement, Difference, compare, compare_exhibits, compare_mutants};
+pub use evaluated::{Evaluation, Evaluations};
+pub use place::{circumstances, package_root, revision, today};
 
 /// Why golden files could not be used.
 #[derive(Debug, thiserror::Error)]
@@ -101,6 +95,12 @@ impl Golden {
         self.root.join("LOG.md")
     }
 
+    /// Where it is kept when and how far each claim was last evaluated.
+    #[must_use]
+    pub fn evaluated(&self) -> PathBuf {
+        self.root.join("evaluated.json")
+    }
+
     /// The file of an id.
     #[must_use]
     pub fn path(&self, shelf: Shelf, id: &str) -> PathBuf {
@@ -129,6 +129,14 @@ impl Golden {
         read(&self.path(if timed { Shelf::Measured } else { Shelf::Exhibits }, id))
     }
 
+    /// When and how far each claim was last evaluated; empty if there is no such file.
+    ///
+    /// # Errors
+    /// The file is there but cannot be read.
+    pub fn evaluations(&self) -> Result<Evaluations, GoldenError> {
+        Ok(read(&self.evaluated())?.unwrap_or_default())
+    }
+
     /// The golden record of a mutant, if there is one.
     ///
     /// # Errors
@@ -136,15 +144,6 @@ impl Golden {
     pub fn mutant(&self, id: &str) -> Result<Option<MutantRecord>, GoldenError> {
         read(&self.path(Shelf::Mutants, id))
     }
-}
-
-/// The nearest folder with golden files: from the package Cargo is running, else from the current
-/// directory, upwards; where there is none, that package or directory itself.
-#[must_use]
-pub fn package_root() -> PathBuf {
-    let start = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
-    let start = start.or_else(|| std::env::current_dir().ok()).unwrap_or_else(|| PathBuf::from("."));
-    start.ancestors().find(|folder| folder.join("golden").is_dir()).unwrap_or(&start).to_path_buf()
 }
 
 /// Reads JSON; `None` if there is no such file.
@@ -167,154 +166,6 @@ pub fn write<T: Serialize>(path: &Path, value: &T) -> Result<(), GoldenError> {
     let mut text = text.map_err(|source| GoldenError::Json { path: path.to_path_buf(), source })?;
     text.push('\n');
     Ok(atomic::write(path, text.as_bytes())?)
-}
-
-/// One place where a result is not the golden one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
-    /// Where: `N = 32, error`.
-    pub place: String,
-    /// The golden entry.
-    pub golden: String,
-    /// The present one.
-    pub now: String,
-    /// |now − golden| / |golden|; NaN if not two numbers.
-    pub relative: f64,
-}
-
-impl fmt::Display for Difference {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "{}: golden {}, now {}", self.place, self.golden, self.now)?;
-        if self.relative.is_finite() { write!(out, " (relative {:.2e})", self.relative) } else { Ok(()) }
-    }
-}
-
-/// Compares a record with the golden one at the rungs both have; a rung of `now` that the golden
-/// record lacks is a difference, the reverse is not.
-#[must_use]
-pub fn compare(now: &Record, golden: &Record, agreement: Agreement) -> Vec<Difference> {
-    let mut all = Vec::new();
-    let symbol = super::ladder::symbol(&now.parameter);
-    for sample in &now.samples {
-        let place = format!("{symbol} = {}", sample.parameter);
-        match golden.samples.iter().find(|g| g.parameter.to_bits() == sample.parameter.to_bits()) {
-            Some(g) => compare_samples(&place, sample, g, now.metric, agreement, &mut all),
-            None => all.push(words(place, "no such rung", "evaluated")),
-        }
-    }
-    for rung in &now.failed {
-        all.push(words(format!("{symbol} = {}", rung.parameter), "a sample", &rung.why));
-    }
-    if now.samples.len() == golden.samples.len()
-        && let (Some(a), Some(b)) = (&now.order, &golden.order)
-    {
-        compare_numbers("order", a.fitted.order, b.fitted.order, 1.0, FITTED, &mut all);
-    }
-    all
-}
-
-fn compare_samples(
-    place: &str,
-    now: &Sample,
-    golden: &Sample,
-    metric: Metric,
-    agreement: Agreement,
-    all: &mut Vec<Difference>,
-) {
-    // An error that is all rounding may move by itself; what counts is the scale it was formed on.
-    let size = golden.computed.abs().max(golden.reference.abs());
-    let scale = if metric == Metric::Absolute { size } else { 1.0 };
-    let at = |name: &str| format!("{place}, {name}");
-    compare_numbers(&at("computed"), now.computed, golden.computed, size, agreement, all);
-    compare_numbers(&at("reference"), now.reference, golden.reference, size, agreement, all);
-    compare_numbers(&at("error"), now.error, golden.error, scale, agreement, all);
-    for (name, &value) in &now.extra {
-        match golden.extra.get(name) {
-            Some(&g) => compare_numbers(&at(name), value, g, g.abs(), agreement, all),
-            None => all.push(words(at(name), "nothing", "a number")),
-        }
-    }
-    for name in golden.extra.keys().filter(|name| !now.extra.contains_key(*name)) {
-        all.push(words(at(name), "a number", "nothing"));
-    }
-}
-
-/// Compares two exhibits, number by number.
-#[must_use]
-pub fn compare_exhibits(now: &ExhibitData, golden: &ExhibitData, agreement: Agreement) -> Vec<Difference> {
-    let mut all = Vec::new();
-    match (serde_json::to_value(now), serde_json::to_value(golden)) {
-        (Ok(a), Ok(b)) => compare_values("", &a, &b, agreement, &mut all),
-        _ => all.push(words("exhibit".to_owned(), "JSON", "not expressible as JSON")),
-    }
-    all
-}
-
-/// Compares two mutants: whether they were caught, and the error measured.
-#[must_use]
-pub fn compare_mutants(now: &MutantRecord, golden: &MutantRecord, agreement: Agreement) -> Vec<Difference> {
-    let mut all = Vec::new();
-    if now.caught != golden.caught {
-        let word = |caught| if caught { "caught" } else { "escaped" };
-        all.push(words("mutant".to_owned(), word(golden.caught), word(now.caught)));
-    }
-    compare_numbers("error", now.error, golden.error, golden.error.abs(), agreement, &mut all);
-    all
-}
-
-fn compare_values(place: &str, now: &Value, golden: &Value, agreement: Agreement, all: &mut Vec<Difference>) {
-    let inner = |name: &str| if place.is_empty() { name.to_owned() } else { format!("{place}.{name}") };
-    match (now, golden) {
-        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
-            for (k, (x, y)) in a.iter().zip(b).enumerate() {
-                compare_values(&inner(&k.to_string()), x, y, agreement, all);
-            }
-        }
-        (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
-            for (name, x) in a {
-                compare_values(&inner(name), x, &b[name], agreement, all);
-            }
-        }
-        (Value::Number(a), Value::Number(b)) => {
-            let (a, b) = (a.as_f64().unwrap_or(f64::NAN), b.as_f64().unwrap_or(f64::NAN));
-            compare_numbers(place, a, b, b.abs().max(1.0), agreement, all);
-        }
-        (a, b) if a == b => {}
-        (a, b) => all.push(words(place.to_owned(), &brief(b), &brief(a))),
-    }
-}
-
-fn compare_numbers(
-    place: &str,
-    now: f64,
-    golden: f64,
-    scale: f64,
-    agreement: Agreement,
-    all: &mut Vec<Difference>,
-) {
-    let same = now.to_bits() == golden.to_bits() || (now.is_nan() && golden.is_nan());
-    let agree = same
-        || match agreement {
-            Agreement::Bits => false,
-            Agreement::Relative(bound) => (now - golden).abs() <= bound * scale,
-        };
-    if !agree {
-        all.push(Difference {
-            place: place.to_owned(),
-            golden: format!("{golden:e}"),
-            now: format!("{now:e}"),
-            relative: (now - golden).abs() / golden.abs(),
-        });
-    }
-}
-
-fn words(place: String, golden: &str, now: &str) -> Difference {
-    Difference { place, golden: golden.to_owned(), now: now.to_owned(), relative: f64::NAN }
-}
-
-fn brief(value: &Value) -> String {
-    let text = value.to_string();
-    if text.chars().count() > 60 { format!("{}…", text.chars().take(60).collect::<String>()) } else { text }
 }
 
 /// The record to keep when only some of a golden record's rungs were evaluated again.
@@ -359,65 +210,4 @@ pub fn may_bless(reason: &str) -> Result<(), GoldenError> {
         return Err(GoldenError::UnderCi);
     }
     if reason.split_whitespace().next().is_none() { Err(GoldenError::NoReason) } else { Ok(()) }
-}
-
-/// Today's date (UTC), `2026-11-22`.
-#[must_use]
-pub fn today() -> String {
-    let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-    civil(since.map_or(0, |d| d.as_secs() / 86_400))
-}
-
-/// Calendar date of a day counted from 1970-01-01 (Gregorian).
-fn civil(day: u64) -> String {
-    // Years are counted from March, so that the leap day ends a year; 719 468 days from 0000-03-01.
-    let shifted = day + 719_468;
-    let (era, in_era) = (shifted / 146_097, shifted % 146_097);
-    let year_of_era = (in_era - in_era / 1_460 + in_era / 36_524 - in_era / 146_096) / 365;
-    let in_year = in_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
-    let month = (5 * in_year + 2) / 153;
-    let date = in_year - (153 * month + 2) / 5 + 1;
-    let (month, carry) = if month < 10 { (month + 3, 0) } else { (month - 9, 1) };
-    format!("{:04}-{month:02}-{date:02}", era * 400 + year_of_era + carry)
-}
-
-/// Date, processor and core count of this machine.
-#[must_use]
-pub fn circumstances() -> Measured {
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model =
-        info.lines().find_map(|l| l.strip_prefix("model name")?.split_once(':').map(|(_, m)| m.trim()));
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let model = model.unwrap_or(std::env::consts::ARCH);
-    Measured { date: today(), machine: format!("{model}, {cores} logical cores") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn exact_calendar() {
-        // `date -u -d @N` of the GNU core utilities.
-        for (day, date) in
-            [(0, "1970-01-01"), (11_016, "2000-02-29"), (19_782, "2024-02-29"), (20_779, "2026-11-22")]
-        {
-            assert_eq!(civil(day), date);
-        }
-    }
-
-    #[test]
-    fn one_bit_is_a_difference_and_nan_equals_nan() {
-        let mut all = Vec::new();
-        compare_numbers("x", 1.0, 1.0, 1.0, Agreement::Bits, &mut all);
-        compare_numbers("x", f64::NAN, -f64::NAN, 1.0, Agreement::Bits, &mut all);
-        assert!(all.is_empty());
-        compare_numbers("x", 1.0 + f64::EPSILON, 1.0, 1.0, Agreement::Bits, &mut all);
-        compare_numbers("x", -0.0, 0.0, 1.0, Agreement::Bits, &mut all);
-        compare_numbers("x", 1.0 + 1e-8, 1.0, 1.0, Agreement::Relative(1e-9), &mut all);
-        compare_numbers("x", f64::NAN, 1.0, 1.0, Agreement::Relative(1e-9), &mut all);
-        assert_eq!(all.len(), 4);
-        compare_numbers("x", 1.0 + 1e-10, 1.0, 1.0, Agreement::Relative(1e-9), &mut all);
-        assert_eq!(all.len(), 4);
-    }
 }

@@ -1,9 +1,12 @@
 //! Ladders: which rungs are evaluated, and which of them a tolerance applies to.
 
+use serde::{Deserialize, Serialize};
+
 use super::claim::{Claim, Ladder, Rung};
 
 /// How much of a ladder is evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Depth {
     /// The rungs of `cargo test`.
     Short,

@@ -107,7 +107,8 @@ fn at_rungs(mutant: &Mutant, claim: &Claim) -> Claim {
     if mutant.rung.is_some() { Claim { order: None, ..*claim } } else { *claim }
 }
 
-/// As [`evaluate`], without the control: for where the honest claim is evaluated beside it.
+/// Puts a mutant before the claim that must catch it, without the control: for where the honest claim is
+/// evaluated beside it.
 #[must_use]
 pub fn uncontrolled(mutant: &Mutant, claim: &Claim, backend: &dyn Backend) -> MutantRecord {
     let mut claim = at_rungs(mutant, claim);

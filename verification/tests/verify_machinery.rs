@@ -3,15 +3,15 @@
 use lahar::setup::Setup;
 use lahar::solver::run::{Backend, Run, StartError};
 use lahar_verification::claim::{
-    Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
 };
 use lahar_verification::evaluate::evaluate;
 use lahar_verification::exhibit::{Exhibit, ExhibitData, Table};
-use lahar_verification::golden::{Agreement, GoldenError, compare, merge, rejudge};
+use lahar_verification::golden::{Agreement, Evaluation, GoldenError, compare, merge, rejudge};
 use lahar_verification::ladder::{Depth, faults};
 use lahar_verification::mutant::{self, Detection, Mutant, Subject};
 use lahar_verification::record::{Record, Verdict};
-use lahar_verification::report::{Chapter, render};
+use lahar_verification::report::{Chapter, Entry, Tried, render};
 use lahar_verification::study::{Options, Results, Study};
 
 /// A backend that starts nothing.
@@ -68,6 +68,7 @@ const QUADRATURE: Claim = Claim {
     tolerance: Tolerance {
         value: 0.5 / 256.0 + 1e-12,
         at: Rung::At(16.0),
+        basis: Basis::Derived,
         because: "the rule's error is N⁻²/2, plus rounding",
     },
     kind: Kind::Verification,
@@ -226,17 +227,34 @@ fn exact_results_do_not_depend_on_threads() {
 #[test]
 fn report_shows_claims_mutants_limits_and_unchecked_equations() {
     let results = Results::compute(&STUDY, &Nothing, &Options { full: true, ..Options::default() });
+    let evaluation = Evaluation {
+        depth: Depth::Full,
+        revision: Some("abc1234".to_owned()),
+        date: "2026-11-22".to_owned(),
+        machine: None,
+    };
+    let entry = |(claim, record): (&Claim, Record)| Entry {
+        record,
+        basis: claim.tolerance.basis,
+        declared: [claim.ladder.full, &[64.0]].concat(),
+        short: claim.ladder.short.to_vec(),
+        evaluation: Some(evaluation.clone()),
+    };
+    let tried = |(_, record)| Tried { record, in_solver: false };
     let chapter = Chapter {
         id: STUDY.id.to_owned(),
         title: STUDY.title.to_owned(),
         intro: STUDY.intro.to_owned(),
         limits: STUDY.limits.iter().map(|&l| l.to_owned()).collect(),
-        records: results.records.into_iter().map(|(_, r)| r).collect(),
+        claims: results.records.into_iter().map(entry).collect(),
         exhibits: results.exhibits.into_iter().map(|(e, r)| (e.caption.to_owned(), r.unwrap())).collect(),
-        mutants: results.mutants.into_iter().map(|(_, m)| m).collect(),
+        mutants: results.mutants.into_iter().map(tried).collect(),
         missing: vec!["not-yet".to_owned()],
     };
-    let text = render(&[chapter]);
+    let mut text = String::new();
+    for (path, content) in render(&[chapter]) {
+        text += &format!("=== {}\n\n{content}\n", path.display());
+    }
     insta::with_settings!({ snapshot_path => "../../golden/snapshots", prepend_module_to_snapshot => false }, {
         insta::assert_snapshot!("report_machinery", text);
     });

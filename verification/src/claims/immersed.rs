@@ -194,7 +194,7 @@ impl Array {
     /// [`crate::exact::suspension::cubic_array`].
     ///
     /// # Errors
-    /// As [`limit`].
+    /// The run does not start, is stopped, or does not settle; see [`limit`].
     pub fn fixed(&self, backend: &dyn Backend) -> Result<f64, VerifyError> {
         let mut setup = self.setup(1.0, true);
         let force = self.force(1.0);
@@ -210,7 +210,7 @@ impl Array {
     /// [`lahar::coupling::Suspension::balanced`].
     ///
     /// # Errors
-    /// As [`limit`].
+    /// The run does not start, is stopped, or does not settle; see [`limit`].
     pub fn falling(&self, backend: &dyn Backend, density: f64) -> Result<f64, VerifyError> {
         let mut setup = self.setup(density, false);
         let cube = (self.cells * self.cells * self.cells) as f64;

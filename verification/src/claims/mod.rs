@@ -1,4 +1,4 @@
-//! The claims, one file per study.
+//! The claims, one module per study.
 
 use super::study::Study;
 

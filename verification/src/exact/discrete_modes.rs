@@ -91,7 +91,7 @@ pub fn shear_factor(
 /// gives its decay.
 ///
 /// # Errors
-/// As [`shear_factor`].
+/// `Argument` outside τ > ½, wavelength ≥ 2, or a mean flow with a diagonal wave.
 pub fn shear_viscosity_ratio(
     shear: Shear,
     relaxation: Relaxation,

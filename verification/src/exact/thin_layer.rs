@@ -103,7 +103,8 @@ impl Snapshot {
         last_crossing(&self.x, &self.h, threshold)
     }
 
-    /// The same for the depth h − b: where the wetted region ends, recesses included.
+    /// The largest x at which the depth h − b falls through `threshold`: where the wetted region ends, recesses
+    /// included. `None` if it nowhere exceeds it or does so in the last cell.
     pub fn depth_front(&self, threshold: f64) -> Option<f64> {
         last_crossing(&self.x, &self.depth(), threshold)
     }

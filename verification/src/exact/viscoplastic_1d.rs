@@ -169,7 +169,7 @@ impl<C: FlowCurve> Flow1d<C> {
     /// resolves a sudden start, up to `largest_step`, and are shortened to end on the times asked for.
     ///
     /// # Errors
-    /// As [`Flow1d::step`].
+    /// `Argument` for Δt ≤ 0, `NotConverged`, from any [`Flow1d::step`].
     pub fn profiles(
         &self,
         from: &Profile,

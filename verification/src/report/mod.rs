@@ -1,45 +1,31 @@
-//! `REPORT.md`: a document made from the golden files alone.
+//! `REPORT.md` and `verification/report/*.md`: documents made from the golden files alone.
 //!
-//! [`render()`] is a pure function; [`command`] reads the golden files, writes the report with its
-//! figures, or checks that both are current.
+//! [`render()`] is a pure function from [`Chapter`]s to files; [`command`] reads the golden files, writes
+//! the documents with their figures, or checks that all of them are current.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::claims::studies;
-use crate::exhibit::ExhibitRecord;
-use crate::golden::{Golden, GoldenError, rejudge};
-use crate::mutant::MutantRecord;
-use crate::record::Record;
-use crate::study::Study;
+use crate::figures;
+use crate::golden::{Golden, GoldenError};
 use lahar::output::{OutputError, atomic, svg};
 
-pub mod figures;
-pub mod format;
-mod render;
-mod trace;
+mod chapter;
+mod claim;
+mod equations;
+mod exhibits;
+mod index;
+mod ladders;
+mod mutants;
+mod page;
+mod papers;
+pub mod text;
 
-pub use render::render;
+pub use chapter::{Chapter, Entry, Tried};
 
-/// One study as the report needs it.
-pub struct Chapter {
-    /// Id of the study.
-    pub id: String,
-    /// Heading.
-    pub title: String,
-    /// Introduction, Markdown.
-    pub intro: String,
-    /// Known limits, sentences.
-    pub limits: Vec<String>,
-    /// Claims with a golden record, judged by their present declaration.
-    pub records: Vec<Record>,
-    /// Exhibits with their captions; the timed ones carry date and machine.
-    pub exhibits: Vec<(String, ExhibitRecord)>,
-    /// Mutants.
-    pub mutants: Vec<MutantRecord>,
-    /// Ids of claims, exhibits and mutants without a golden file.
-    pub missing: Vec<String>,
-}
+/// Where the chapters stand, relative to the root of the repository.
+const FOLDER: &str = "verification/report";
 
 /// Why there is no report.
 #[derive(Debug, thiserror::Error)]
@@ -47,7 +33,7 @@ pub enum ReportError {
     /// A golden file cannot be used.
     #[error(transparent)]
     Golden(#[from] GoldenError),
-    /// A figure or the report cannot be written.
+    /// A figure or a document cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
     /// A file cannot be read or removed.
@@ -66,27 +52,37 @@ pub enum ReportOutcome {
     Stale { files: Vec<PathBuf> },
 }
 
-/// Makes `REPORT.md` and `golden/figures/*.svg` from the golden files under `root`; with `check`
+/// Makes the documents. Pure: the same chapters give the same bytes.
+///
+/// # Returns
+/// Path relative to the root of the repository, and content.
+#[must_use]
+pub fn render(chapters: &[Chapter]) -> BTreeMap<PathBuf, String> {
+    let mut files = BTreeMap::from([
+        (PathBuf::from("REPORT.md"), index::render(chapters)),
+        (Path::new(FOLDER).join(equations::FILE), equations::render(chapters)),
+        (Path::new(FOLDER).join(ladders::FILE), ladders::render(chapters)),
+    ]);
+    for (k, chapter) in chapters.iter().enumerate() {
+        files.insert(Path::new(FOLDER).join(page::file(k, chapter)), page::render(k, chapter));
+    }
+    files
+}
+
+/// Makes the documents and `golden/figures/*.svg` from the golden files under `root`; with `check`
 /// nothing is written, and the outcome says whether the files on disk are the ones that would be.
 ///
 /// # Errors
 /// [`ReportError`] for files that cannot be read or written.
 pub fn command(root: &Path, check: bool) -> Result<ReportOutcome, ReportError> {
     let golden = Golden::under(root);
-    let chapters = studies().iter().map(|s| chapter(s, &golden)).collect::<Result<Vec<_>, _>>()?;
-    let files = files(&chapters)?;
-    let superfluous = superfluous(root, &golden, &files)?;
+    let evaluations = golden.evaluations()?;
+    let chapters = studies().iter().map(|s| Chapter::read(s, &golden, &evaluations));
+    let files = files(&chapters.collect::<Result<Vec<_>, _>>()?)?;
+    let superfluous = superfluous(root, &files)?;
     if check {
-        let stale = |(path, text): (&PathBuf, &String)| -> Result<Option<PathBuf>, ReportError> {
-            let same = match std::fs::read_to_string(root.join(path)) {
-                // A checkout may have changed the line ends.
-                Ok(found) => found.replace("\r\n", "\n") == *text,
-                Err(error) if error.kind() == std::io::ErrorKind::NotFound => false,
-                Err(source) => return Err(ReportError::Io { path: path.clone(), doing: "read", source }),
-            };
-            Ok((!same).then(|| path.clone()))
-        };
-        let stale = files.iter().map(stale).collect::<Result<Vec<_>, _>>()?;
+        let stale = files.iter().map(|(path, text)| stale(root, path, text));
+        let stale = stale.collect::<Result<Vec<_>, _>>()?;
         let files: Vec<PathBuf> = stale.into_iter().flatten().chain(superfluous).collect();
         return Ok(if files.is_empty() { ReportOutcome::Current } else { ReportOutcome::Stale { files } });
     }
@@ -100,76 +96,50 @@ pub fn command(root: &Path, check: bool) -> Result<ReportOutcome, ReportError> {
     Ok(ReportOutcome::Written { files: files.len() })
 }
 
-/// Report and figures: path relative to the root, and content.
+/// The path, if the file on disk is not this text.
+fn stale(root: &Path, path: &Path, text: &str) -> Result<Option<PathBuf>, ReportError> {
+    let same = match std::fs::read_to_string(root.join(path)) {
+        // A checkout may have changed the line ends.
+        Ok(found) => found.replace("\r\n", "\n") == text,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => false,
+        Err(source) => return Err(ReportError::Io { path: path.to_owned(), doing: "read", source }),
+    };
+    Ok((!same).then(|| path.to_owned()))
+}
+
+/// Documents and figures: path relative to the root, and content.
 fn files(chapters: &[Chapter]) -> Result<BTreeMap<PathBuf, String>, ReportError> {
-    let mut files = BTreeMap::from([(PathBuf::from("REPORT.md"), render(chapters))]);
+    let mut files = render(chapters);
     for chapter in chapters {
-        let records: Vec<&Record> = chapter.records.iter().collect();
         let exhibits = chapter.exhibits.iter().flat_map(|(_, e)| figures::of_exhibit(e));
-        for (name, plot) in figures::convergence(&chapter.id, &records).into_iter().chain(exhibits) {
+        for (name, plot) in figures::convergence(&chapter.id, &chapter.records()).into_iter().chain(exhibits)
+        {
             files.insert(Path::new("golden/figures").join(name), svg::draw(&plot)?);
         }
     }
     Ok(files)
 }
 
-/// Figures on disk that no record asks for any more.
-fn superfluous(
-    root: &Path,
-    golden: &Golden,
-    files: &BTreeMap<PathBuf, String>,
-) -> Result<Vec<PathBuf>, ReportError> {
-    let folder = golden.figures();
-    let entries = match std::fs::read_dir(&folder) {
-        Ok(entries) => entries,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-        Err(source) => return Err(ReportError::Io { path: folder, doing: "read", source }),
-    };
+/// Figures and chapters on disk that no record asks for any more.
+fn superfluous(root: &Path, files: &BTreeMap<PathBuf, String>) -> Result<Vec<PathBuf>, ReportError> {
     let mut found = Vec::new();
-    for entry in entries {
-        let path =
-            entry.map_err(|source| ReportError::Io { path: folder.clone(), doing: "read", source })?.path();
-        let relative = path.strip_prefix(root).unwrap_or(&path).to_path_buf();
-        if path.extension().is_some_and(|e| e == "svg") && !files.contains_key(&relative) {
-            found.push(relative);
+    for (folder, ending) in [("golden/figures", "svg"), (FOLDER, "md")] {
+        let folder = root.join(folder);
+        let entries = match std::fs::read_dir(&folder) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => continue,
+            Err(source) => return Err(ReportError::Io { path: folder, doing: "read", source }),
+        };
+        for entry in entries {
+            let entry =
+                entry.map_err(|source| ReportError::Io { path: folder.clone(), doing: "read", source })?;
+            let path = entry.path();
+            let relative = path.strip_prefix(root).unwrap_or(&path).to_path_buf();
+            if path.extension().is_some_and(|e| e == ending) && !files.contains_key(&relative) {
+                found.push(relative);
+            }
         }
     }
     found.sort();
     Ok(found)
-}
-
-fn chapter(study: &Study, golden: &Golden) -> Result<Chapter, ReportError> {
-    let mut chapter = Chapter {
-        id: study.id.to_owned(),
-        title: study.title.to_owned(),
-        intro: study.intro.to_owned(),
-        limits: study.limits.iter().map(|&l| l.to_owned()).collect(),
-        records: Vec::new(),
-        exhibits: Vec::new(),
-        mutants: Vec::new(),
-        missing: Vec::new(),
-    };
-    for claim in study.claims {
-        match golden.record(claim.id)? {
-            Some(mut record) => {
-                let in_ladder = |p: f64| claim.ladder.full.iter().any(|f| f.to_bits() == p.to_bits());
-                record.samples.retain(|s| in_ladder(s.parameter));
-                chapter.records.push(rejudge(claim, &record.samples));
-            }
-            None => chapter.missing.push(claim.id.to_owned()),
-        }
-    }
-    for exhibit in study.exhibits {
-        match golden.exhibit(exhibit.id, exhibit.timed)? {
-            Some(record) => chapter.exhibits.push((exhibit.caption.to_owned(), record)),
-            None => chapter.missing.push(exhibit.id.to_owned()),
-        }
-    }
-    for mutant in study.mutants {
-        match golden.mutant(mutant.id)? {
-            Some(record) => chapter.mutants.push(record),
-            None => chapter.missing.push(mutant.id.to_owned()),
-        }
-    }
-    Ok(chapter)
 }

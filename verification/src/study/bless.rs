@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use super::{Options, Results, Study};
 use crate::golden::{
-    Difference, Golden, GoldenError, Shelf, compare, compare_exhibits, compare_mutants, merge, today, write,
+    Difference, Evaluation, Golden, GoldenError, Shelf, compare, compare_exhibits, compare_mutants, merge,
+    revision, today, write,
 };
 use lahar::output::atomic;
 
@@ -48,11 +49,23 @@ impl Change {
     /// The line of the log; `None` if nothing changed.
     fn line(&self) -> Option<String> {
         let Some(differences) = &self.differences else { return Some(format!("- `{}`: new", self.id)) };
-        let worse = |a: &Difference, b: &Difference| a.relative.total_cmp(&b.relative);
-        let numbers = differences.iter().filter(|d| d.relative.is_finite());
-        let worst = numbers.max_by(|a, b| worse(a, b)).or(differences.first())?;
-        Some(format!("- `{}`: {} places, worst {worst}", self.id, differences.len()))
+        let worst = worst(differences.iter()).or(differences.first())?;
+        // A residual of rounding may change by any factor; what was computed is named beside it.
+        let computed = worst_computed(differences).filter(|d| *d != worst);
+        let computed = computed.map_or_else(String::new, |d| format!("; of what was computed, {d}"));
+        Some(format!("- `{}`: {} places, worst {worst}{computed}", self.id, differences.len()))
     }
+}
+
+/// The largest relative change.
+fn worst<'a>(differences: impl Iterator<Item = &'a Difference>) -> Option<&'a Difference> {
+    let numbers = differences.filter(|d| d.relative.is_finite());
+    numbers.max_by(|a, b| a.relative.total_cmp(&b.relative))
+}
+
+/// The largest relative change of a number that a claim compares with its reference.
+fn worst_computed(differences: &[Difference]) -> Option<&Difference> {
+    worst(differences.iter().filter(|d| d.place.ends_with(", computed")))
 }
 
 /// Compares; prints what differs and what is missing. True if nothing differs.
@@ -89,9 +102,12 @@ pub(super) fn bless(
         let old = golden.record(claim.id)?;
         records.push((claim.id, merge(claim, record, old.as_ref(), study.agreement)?));
     }
+    let mut evaluations = golden.evaluations()?;
     for (id, record) in records {
         write(&golden.path(Shelf::Records, id), &record)?;
+        evaluations.0.insert(id.to_owned(), Evaluation::now(options.depth()));
     }
+    write(&golden.evaluated(), &evaluations)?;
     let mut grown = Vec::new();
     for (exhibit, record) in &results.exhibits {
         let Ok(record) = record else { continue };
@@ -130,7 +146,8 @@ fn log(
     };
     let full = if options.full { " --full" } else { "" };
     let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
-    let _ = write!(text, "\n## {}{}: study-{}{full}\n\n{reason}\n\n", today(), revision(), study.id);
+    let after = revision().map_or_else(String::new, |r| format!(", after revision {r}"));
+    let _ = write!(text, "\n## {}{after}: study-{}{full}\n\n{reason}\n\n", today(), study.id);
     if lines.is_empty() {
         text.push_str("- no number changed\n");
     }
@@ -138,11 +155,4 @@ fn log(
         let _ = writeln!(text, "{line}");
     }
     Ok(atomic::write(&path, text.as_bytes())?)
-}
-
-/// `, revision abc1234`, if the working copy is under git.
-fn revision() -> String {
-    let git = std::process::Command::new("git").args(["rev-parse", "--short", "HEAD"]).output();
-    let text = git.ok().filter(|o| o.status.success()).and_then(|o| String::from_utf8(o.stdout).ok());
-    text.map_or_else(String::new, |t| format!(", after revision {}", t.trim()))
 }

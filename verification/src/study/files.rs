@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use super::{Results, Study};
+use crate::figures;
 use crate::golden::{GoldenError, write as write_json};
 use crate::record::Record;
-use crate::report::figures;
 use lahar::output::{atomic, svg};
 
 /// Writes `records/`, `exhibits/`, `mutants/` and `figures/` into a folder.

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use super::{Results, Study};
+use crate::format::{order, scientific};
 use crate::record::{Record, Verdict};
-use crate::report::format::{order, scientific};
 
 /// The table of claims, then what failed and why, then exhibits and mutants.
 pub(super) fn render(study: &Study, results: &Results) -> String {

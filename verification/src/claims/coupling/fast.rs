@@ -1,7 +1,7 @@
 //! A sphere that moves fast through fluid of low viscosity: hard on collision operators.
 
 use super::moving::norm;
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::claims::immersed::{WALLS, driven, grains, periodic, plain_suspension, sphere};
 use lahar::collision::{CollisionChoice, OddRate};
 use lahar::coupling::GrainWall;
@@ -67,6 +67,7 @@ pub const FAST: Claim = Claim {
     tolerance: Tolerance {
         value: 1.5,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "the speed of the sphere, and the half of it by which the corners of a staircase may exceed it; an operator that fails passes \
                   2 and the guard within 100 to 400 steps",
     },

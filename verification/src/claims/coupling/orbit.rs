@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::free::{middle, sheared};
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::claims::immersed::{exact, immersed, numerics};
 use crate::exact::suspension::rotation::{self, JefferyOrbit};
 use lahar::coupling::StandardCoupling;
@@ -60,6 +60,7 @@ pub const ORBIT: Claim = Claim {
     tolerance: Tolerance {
         value: 0.045,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "the aspect ratio to 5 % as in `pair-effective-aspect-ratio`, of which (r - 1/r)/(r + 1/r) = 0.6 goes into the time; fluid \
                   inertia: a tenth of Re = 0.1 and the start from rest, R^2/nu over the time of a turn: 0.002",
     },

@@ -34,6 +34,8 @@ pub static STUDY: Study = Study {
     exhibits: &[exhibits::RUNS, exhibits::TIME_STEP, exhibits::NEWTONIAN_HISTORY, mudflow::WALL],
     mutants: &[],
     limits: &[
+        "The front of `collapsing-column` moves away from the measured one as the grid is refined: 4.0, 5.6 and 8.3 % at 16, 32 and \
+         64 cells, and 11.5 % when that is extrapolated, more than its tolerance. The gate stops at the second rung.",
         "The aim of 10 mm from the twin at 30 and 60 s is met by run C on cells of 6 mm, 8.1 and 3.1 mm behind, but not on \
          3 mm, 12.8 and 8.3 mm behind. It is not met by run A (32 and 26 mm behind on 6 mm) nor by the runs with an erodible \
          bed: E is 25 and 24 mm behind on 3 mm, 23 and 19 mm on 6 mm, H 34 and 29 mm on 6 mm. The bed brings 4.0 cm at 60 s \

@@ -1,7 +1,7 @@
 //! Fronts on the slope against the depth-averaged twin.
 
 use super::thesis::{self, Case, Grid, Prepared};
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::exact::ExactError;
 use crate::exact::poiseuille_clamped::Trilinear;
 use crate::exact::thin_layer::Snapshot;
@@ -102,6 +102,7 @@ const TWIN: Reference = Reference {
 const ONE: Tolerance = Tolerance {
     value: 1.0,
     at: Rung::Every,
+    basis: Basis::AfterSeeing,
     because: "until 6 s the arrest thickness sigma0/(rho g sin theta): lubrication theory leaves out inertia and \
               places a front to about one depth; from 30 s the 10 mm that the project aims for, 1.7 cells",
 };
@@ -162,7 +163,7 @@ macro_rules! run_out_claim {
             tolerance: Tolerance {
                 value: 0.1,
                 at: Rung::Every,
-                because: "hard case H20: 10 %. At 12 degrees the collapse from the gate is slower than without inertia and \
+                basis: Basis::Reference, because: "hard case H20: 10 %. At 12 degrees the collapse from the gate is slower than without inertia and \
                           longitudinal stress, and the flow catches up only algebraically; a bed is one cell deep \
                           here, and lubrication theory sets all of it in motion ahead of the surge",
             },

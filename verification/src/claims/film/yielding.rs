@@ -1,7 +1,9 @@
 //! Films of yield-stress fluid: profile and discharge at any fill level.
 
 use super::support::{SLOPE, Sheet};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use lahar::rheology::Law;
 use lahar::solver::run::Backend;
 use lahar::solver::steady::SteadyRule;
@@ -67,7 +69,12 @@ pub const BINGHAM: Claim = Claim {
     metric: Metric::L2,
     ladder: Ladder { parameter: "N (cells deep)", short: &[4.0, 8.0, 16.0], full: &[4.0, 8.0, 16.0, 32.0] },
     order: Some(OrderBand { expected: 2.0, band: 0.3, at_least: false }),
-    tolerance: Tolerance { value: 0.02, at: Rung::Every, because: "second order at 0.3/N²" },
+    tolerance: Tolerance {
+        value: 0.02,
+        at: Rung::Every,
+        basis: Basis::AfterSeeing,
+        because: "second order at 0.3/N²",
+    },
     kind: Kind::Verification,
     measure: |backend, n| rung(backend, Fluid::Bingham, n),
 };
@@ -85,6 +92,7 @@ pub const HERSCHEL_BULKLEY: Claim = Claim {
     tolerance: Tolerance {
         value: 0.05,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "0.7/N² and more on coarse grids: the apparent viscosity varies tenfold within the \
                   cell next to the plug; the order is 1.5 from 6 to 12 cells and 1.8 from 12 to 24",
     },

@@ -1,7 +1,7 @@
 //! Ledgers of violent flows: dam break, outflow, random fluid.
 
 use super::support::{Dice, ledger, tank};
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use lahar::rheology::Law;
 use lahar::setup::{Face, Setup};
 use lahar::solver::run::{Backend, Ledger};
@@ -40,7 +40,12 @@ pub const MASS: Claim = Claim {
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "steps", short: &[500.0, 5000.0], full: &[500.0, 5000.0, 50_000.0] },
     order: None,
-    tolerance: Tolerance { value: 1e-12, at: Rung::Every, because: "HARD_CASES H13" },
+    tolerance: Tolerance {
+        value: 1e-12,
+        at: Rung::Every,
+        basis: Basis::Reference,
+        because: "HARD_CASES H13",
+    },
     kind: Kind::Verification,
     measure: mass,
 };
@@ -76,6 +81,7 @@ pub const MOMENTUM: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-12,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "rounding: 1e-16 of each of the populations, whose impulses of a step add up to some 1e3 times \
                   what they leave",
     },
@@ -113,7 +119,12 @@ pub const OUTFLOW: Claim = Claim {
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "steps", short: &[4000.0], full: &[4000.0, 40_000.0] },
     order: None,
-    tolerance: Tolerance { value: 1e-12, at: Rung::Every, because: "rounding, as HARD_CASES H13" },
+    tolerance: Tolerance {
+        value: 1e-12,
+        at: Rung::Every,
+        basis: Basis::Reference,
+        because: "rounding, as HARD_CASES H13",
+    },
     kind: Kind::Verification,
     measure: outflow,
 };
@@ -155,7 +166,12 @@ pub const FOAM: Claim = Claim {
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "steps", short: &[10_000.0], full: &[10_000.0, 100_000.0] },
     order: None,
-    tolerance: Tolerance { value: 1e-12, at: Rung::Every, because: "rounding, as HARD_CASES H13" },
+    tolerance: Tolerance {
+        value: 1e-12,
+        at: Rung::Every,
+        basis: Basis::Reference,
+        because: "rounding, as HARD_CASES H13",
+    },
     kind: Kind::Verification,
     measure: foam,
 };

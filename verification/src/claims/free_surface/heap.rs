@@ -1,7 +1,7 @@
 //! A heap of yield-stress fluid on a slope that it can bear.
 
 use super::support::{ledger, speed, tank};
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::claims::columns;
 use crate::exact::slump::{Edge, InclineRest};
 use crate::exhibit::{Exhibit, ExhibitData, Table};
@@ -137,6 +137,7 @@ pub const HEAP: Claim = Claim {
     tolerance: Tolerance {
         value: 0.02,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "1.2 mm in a minute, a fifth of a 6 mm cell",
     },
     kind: Kind::Verification,
@@ -161,6 +162,7 @@ pub const ADVANCE: Claim = Claim {
     tolerance: Tolerance {
         value: 0.25,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "the foot of the heap is thinner than a cell, where the links that carry mass do not know the slope of \
                   the surface: it settles by a quarter of a cell at most, 0.02 mm/s over a minute",
     },
@@ -186,6 +188,7 @@ pub const QUIET: Claim = Claim {
     tolerance: Tolerance {
         value: 0.05,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "what is left of the ringing beats, and a conversion stirs single cells",
     },
     kind: Kind::Verification,

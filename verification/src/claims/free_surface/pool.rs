@@ -1,7 +1,7 @@
 //! Pools with a level surface: rest, hydrostatic pressure, no flicker.
 
 use super::support::{ledger, level, speed, tank};
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use lahar::rheology::Law;
 use lahar::setup::Setup;
 use lahar::solver::run::{Backend, Run};
@@ -54,6 +54,7 @@ pub const REST: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-12,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "rounding of populations near 0.3 (5e-17) times 1e4 steps if it all added up",
     },
     kind: Kind::Verification,
@@ -101,6 +102,7 @@ pub const PRESSURE: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-6,
         at: Rung::Every,
+        basis: Basis::Reference,
         because: "HARD_CASES H12; rounding of rho − 1 would give 1e-10",
     },
     kind: Kind::Verification,
@@ -146,6 +148,7 @@ pub const FLICKER: Claim = Claim {
     tolerance: Tolerance {
         value: 1.0,
         at: Rung::Every,
+        basis: Basis::Reference,
         because: "HARD_CASES H6: less than one conversion, rounding for the rest (128 cells of mass 1 hold 3e-14)",
     },
     kind: Kind::Verification,

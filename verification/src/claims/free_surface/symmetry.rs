@@ -1,7 +1,7 @@
 //! Mirror images and mirror planes, to the last bit.
 
 use super::support::tank;
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use lahar::rheology::Law;
 use lahar::setup::{Face, Setup};
 use lahar::solver::run::{Backend, Run};
@@ -66,6 +66,7 @@ fn halves(backend: &dyn Backend, steps: f64) -> Result<Sample, VerifyError> {
 const BITS: Tolerance = Tolerance {
     value: 0.0,
     at: Rung::Every,
+    basis: Basis::Derived,
     because: "the mirrored cell does the same sums in the same order: equal to the last bit",
 };
 

@@ -1,7 +1,9 @@
 //! Sums over many grains: energy, momentum, bits.
 
 use super::support::{RADIUS, setup};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use lahar::dem::packing::{Lattice, Random, Region, Sizes, lattice, scatter};
 use lahar::dem::{
     Clump, ContactEquations, Dem, Grain, Integrator, NormalLaw, PairProperties, Period, Setup,
@@ -81,6 +83,7 @@ pub const ENERGY: Claim = Claim {
     tolerance: Tolerance {
         value: 3.2e-6,
         at: Rung::At(100.0),
+        basis: Basis::AfterSeeing,
         because: "Second order: 0.031/N^2, the constant of the coarsest rung, gives 3.1e-6 at N = 100",
     },
     kind: Kind::Verification,
@@ -103,6 +106,7 @@ pub const MOMENTUM: Claim = Claim {
     tolerance: Tolerance {
         value: 5e-15,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "Every pair's force is added and subtracted as the same number; each grain's velocity is rounded by 1e-16 in each of \
                   4e4 steps, at random: 1e-16 sqrt(4e4/150) = 1.6e-15; three times that",
     },
@@ -147,6 +151,7 @@ pub const THREADS: Claim = Claim {
     tolerance: Tolerance {
         value: 0.0,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "Forces are summed in the order of the partners' numbers: exact",
     },
     kind: Kind::Verification,

@@ -1,7 +1,9 @@
 //! The tangential spring under a rigid motion of the pair.
 
 use super::support::{elastic, material};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use lahar::dem::contact::{
     Contact, ContactEquations, Geometry, History, Losses, Memory, Motion, Rolling, StandardContact, react,
 };
@@ -61,6 +63,7 @@ pub const CARRIED: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-8,
         at: Rung::At(2000.0),
+        basis: Basis::AfterSeeing,
         because: "A twist by angle a per step is made as 1 - a^2/2 and a, short by a^3/6 (second order over a time): 0.0245/n^2, the \
                   constant of the coarsest rung, gives 6.1e-9 at n = 2000; half as much again",
     },

@@ -4,7 +4,7 @@ use super::support::{
     DENSITY, G, POISSON, RADIUS, elastic, floor, head_on, mass, material, plane, rest_on_floor, setup, wall,
     worst,
 };
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::exact::grains::collision::{elastic_speeds, hertz_stiffness, hertz_time};
 use crate::exact::grains::rolling::{arm_ratio, incline_acceleration};
 use lahar::dem::walls::Mesh;
@@ -52,7 +52,7 @@ pub const SIZE: Claim = Claim {
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "R/r", short: &[1.0, 5.0, 20.0], full: &[1.0, 2.0, 5.0, 10.0, 20.0, 50.0] },
     order: None,
-    tolerance: Tolerance { value: 9.5e-6, at: Rung::Every, because: UNEQUAL_BECAUSE },
+    tolerance: Tolerance { value: 9.5e-6, at: Rung::Every, basis: Basis::Derived, because: UNEQUAL_BECAUSE },
     kind: Kind::Verification,
     measure: |_, ratio| {
         let [w, exact, error] = unequal(ratio, (DENSITY, DENSITY))?;
@@ -70,7 +70,7 @@ pub const DENSITIES: Claim = Claim {
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "R/r", short: &[1.0, 20.0], full: &[1.0, 5.0, 20.0] },
     order: None,
-    tolerance: Tolerance { value: 9.5e-6, at: Rung::Every, because: UNEQUAL_BECAUSE },
+    tolerance: Tolerance { value: 9.5e-6, at: Rung::Every, basis: Basis::Derived, because: UNEQUAL_BECAUSE },
     kind: Kind::Verification,
     measure: |_, ratio| {
         let [w, exact, error] = unequal(ratio, (1e4, 1e-3))?;
@@ -106,6 +106,7 @@ pub const MESH_ROLLING: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-11,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "Constant forces after the spring has found its elongation: rounding of 1e-16 in each of 2e4 steps, 2e-12, and what is \
                   left of the damped oscillation",
     },
@@ -187,6 +188,7 @@ pub const MESH_IMPACT: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-5,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "The error of the contact time at 200 steps, see `hertz-contact-time`; a second contact would shorten it by a quarter",
     },
     kind: Kind::Verification,
@@ -241,7 +243,12 @@ pub const GUARD: Claim = Claim {
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "v/v_design", short: &[1.0, 100.0], full: &[1.0, 2.0, 100.0, 1000.0] },
     order: None,
-    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "It stops or it does not" },
+    tolerance: Tolerance {
+        value: 0.0,
+        at: Rung::Every,
+        basis: Basis::Derived,
+        because: "It stops or it does not",
+    },
     kind: Kind::Verification,
     measure: guard,
 };
@@ -288,6 +295,7 @@ pub const NO_FRICTION: Claim = Claim {
     tolerance: Tolerance {
         value: 0.0,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "The tangential force is not computed at all: exact",
     },
     kind: Kind::Verification,

@@ -1,7 +1,9 @@
 //! Oblique impacts, chains of balls, and balls that lean on each other.
 
 use super::support::{G, POISSON, RADIUS, elastic, floor, mass, plane, setup, worst};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use crate::exact::grains::collision::{hertz_overlap, hertz_stiffness};
 use crate::exact::grains::rolling::{oblique_slip, oblique_stick};
 use lahar::dem::{ContactEquations, Dem, Grain, NormalLaw, PairProperties, StandardContact, V3};
@@ -63,6 +65,7 @@ pub const SLIP: Claim = Claim {
     tolerance: Tolerance {
         value: 2.4e-3,
         at: Rung::At(7e10),
+        basis: Basis::Derived,
         because: "The arm is r less the overlap, whose mean weighted with the force is below the largest one, 2.40e-3 r, ~ E^(-2/5)",
     },
     kind: Kind::Verification,
@@ -90,6 +93,7 @@ pub const STICK: Claim = Claim {
     tolerance: Tolerance {
         value: 8e-3,
         at: Rung::At(1.6e7),
+        basis: Basis::Derived,
         because: "The arm is r less the overlap delta, at most v sqrt(m/k) = 1.9e-3 r. It makes the phase (up to 5.26 at 0.8) smaller \
                   by (5/7) delta/r of itself, a velocity of up to (5/7) 3.7 delta/r = 5.0e-3, and the spin by up to \
                   (10/7) delta/r = 2.7e-3",
@@ -150,6 +154,7 @@ pub const CRADLE: Claim = Claim {
     tolerance: Tolerance {
         value: 2.7e-5,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "Where a contact begins and ends the force starts like time^(3/2): the trapezoidal rule errs by zeta(-3/2) = -0.0255 \
                   of dt^2.5 at either end, 1.7e-6 of the speed in all with dt = 3.22/200; 16 collisions in a row at most",
     },
@@ -225,6 +230,7 @@ pub const CORNER: Claim = Claim {
     tolerance: Tolerance {
         value: 6e-4,
         at: Rung::At(7e8),
+        basis: Basis::Derived,
         because: "Overlaps turn the line of centres: 1.09 delta on either side and 1.66 delta between the balls (delta: the \
                   overlap of one weight on a plane, 1.07e-4 r) make sin(phi) 1.71 delta/r and tan(phi) \
                   1.71/(0.75 0.4375) delta/r = 5.6e-4 larger",
@@ -254,6 +260,7 @@ pub const BALANCE: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-12,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "Places are rounded to 1e-18 m, forces follow overlaps of 2.5e-6 m or more to the power 3/2: 6e-13; a few contacts",
     },
     kind: Kind::Verification,

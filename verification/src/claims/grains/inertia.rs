@@ -1,7 +1,9 @@
 //! Volume, centre and inertia of clumps.
 
 use super::support::worst;
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use crate::exact::grains::two_spheres::{Axial, union};
 use lahar::dem::union_moments::union as quadrature;
 use lahar::dem::{Clump, InertiaRule, Sphere, V3};
@@ -61,6 +63,7 @@ pub const TWO: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-13,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "`clump-quadrature` leaves nothing at 40 nodes per piece; rounding of about 1e3 terms of size up to 4 volumes, 1e-13, \
                   and of the Jacobi rotations",
     },
@@ -84,6 +87,7 @@ pub const APART: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-14,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "No quadrature: about 50 roundings of 1.1e-16",
     },
     kind: Kind::Verification,
@@ -115,6 +119,7 @@ pub const QUADRATURE: Claim = Claim {
     tolerance: Tolerance {
         value: 3e-9,
         at: Rung::Last,
+        basis: Basis::AfterSeeing,
         because: "4.3e-7 at 10 nodes carried on with the order 15 asked for: (10/14)^15 4.3e-7 = 2.7e-9",
     },
     kind: Kind::Verification,

@@ -1,7 +1,7 @@
 //! Completeness of the pair list.
 
 use super::support::setup;
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use lahar::dem::packing::{Random, Region, Sizes, scatter};
 use lahar::dem::{Dem, Grain, PairProperties, Period, V3};
 use lahar::solver::run::Backend;
@@ -26,7 +26,12 @@ pub const COMPLETE: Claim = Claim {
         full: &[1.0, 2.0, 5.0, 10.0, 20.0, 50.0],
     },
     order: None,
-    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "A list is complete or it is not" },
+    tolerance: Tolerance {
+        value: 0.0,
+        at: Rung::Every,
+        basis: Basis::Derived,
+        because: "A list is complete or it is not",
+    },
     kind: Kind::Verification,
     measure: complete,
 };

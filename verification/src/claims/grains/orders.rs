@@ -1,7 +1,9 @@
 //! Order of accuracy of the integrators: on smooth forces and across contacts.
 
 use super::support::{POISSON, RADIUS, elastic, floor, head_on, mass, setup};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use crate::exact::grains::collision::{hertz_overlap, hertz_stiffness, hertz_time, visco_elastic_collision};
 use lahar::dem::integrate::gear::{CORRECTOR, CORRECTOR_0_CONSERVATIVE, Gear};
 use lahar::dem::{Dem, Grain, Integrator, NormalLaw, PairProperties, Setup, V3};
@@ -76,6 +78,7 @@ pub const GEAR_DAMPED: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-11,
         at: Rung::At(800.0),
+        basis: Basis::Derived,
         because: "The corrector drops the sixth derivative: errors of (3/160) dt^6/dt per unit of time, t dt^5 (3/160) = 1.5e-11 \
                   with dt = 0.01 and an amplitude of 1; the oscillation has decayed to 0.45 at the end",
     },
@@ -100,6 +103,7 @@ pub const GEAR_CONSERVATIVE: Claim = Claim {
     tolerance: Tolerance {
         value: 1.5e-12,
         at: Rung::At(800.0),
+        basis: Basis::AfterSeeing,
         because: "1.46e-9 at N = 200 carried on with the fifth order that is asked for: 1.43e-12",
     },
     kind: Kind::Verification,
@@ -119,6 +123,7 @@ pub const GEAR_ZERO_START: Claim = Claim {
     tolerance: Tolerance {
         value: 5e-7,
         at: Rung::At(800.0),
+        basis: Basis::AfterSeeing,
         because: "0.21/N^2, the constant of the coarsest rung, gives 3.3e-7 at N = 800; half as much again. (A missing third \
                   derivative shifts the start by dt^2 x'''/6 at most, 1.7e-5; the corrector makes up for most of it.)",
     },
@@ -170,6 +175,7 @@ pub const VERLET: Claim = Claim {
     tolerance: Tolerance {
         value: 1.7e-5,
         at: Rung::At(800.0),
+        basis: Basis::Derived,
         because: "A phase error of omega t (omega dt)^2/24 = 3.3e-5 with omega dt = 0.01, times the amplitude 1/2",
     },
     kind: Kind::Verification,
@@ -195,6 +201,7 @@ pub const GEAR_IN_RUN: Claim = Claim {
     tolerance: Tolerance {
         value: 6e-6,
         at: Rung::At(800.0),
+        basis: Basis::AfterSeeing,
         because: "2.6/N^2, the constant of the coarsest rung, gives 4.1e-6 at N = 800; half as much again",
     },
     kind: Kind::PredictedFailure,
@@ -274,6 +281,7 @@ pub const CONTACT: Claim = Claim {
     tolerance: Tolerance {
         value: 6e-5,
         at: Rung::At(200.0),
+        basis: Basis::Derived,
         because: "The error of the contact time, at most 2e-5 at N = 200 (see `hertz-contact-time`), times t_c v/delta_max = 2.94",
     },
     kind: Kind::Verification,

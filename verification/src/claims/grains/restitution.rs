@@ -1,7 +1,9 @@
 //! Restitution under the damping laws, attraction cut off.
 
 use super::support::{Bounce, POISSON, RADIUS, bounce, head_on, mass, setup, smooth, worst};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use crate::exact::grains::collision::{hertz_stiffness, oscillator, visco_elastic};
 use crate::reference_values::find;
 use lahar::dem::{NormalLaw, Setup};
@@ -56,6 +58,7 @@ pub const VISCO_ELASTIC_TABLE: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-5,
         at: Rung::Every,
+        basis: Basis::Reference,
         because: "H15's bound; 4000 steps leave 0.208 (3/2) A dt^1.5 e = 1.0e-6 (the trapezoidal rule on a force that starts \
                   like the root of time), the reference has 7 digits",
     },
@@ -92,6 +95,7 @@ pub const VISCO_ELASTIC: Claim = Claim {
     tolerance: Tolerance {
         value: 8e-6,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "The damping force starts like the root of time: the trapezoidal rule errs by -zeta(-1/2) = 0.208 of \
                   (3/2) a dt^1.5, times e 4.9e-6 at most with dt = 3.22/2000 contact times; the rest is of order dt^2 = 3e-6",
     },
@@ -122,6 +126,7 @@ pub const VISCO_ELASTIC_ORDER: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-6,
         at: Rung::At(4000.0),
+        basis: Basis::Derived,
         because: "0.208 (3/2) a dt^1.5 e = 1.0e-6 with dt = 3.22/4000, and dt^2 = 6.5e-7 from where the step falls at the \
                   cut-off",
     },
@@ -152,6 +157,7 @@ pub const VISCO_ELASTIC_SPEED: Claim = Claim {
     tolerance: Tolerance {
         value: 5e-6,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "As for `restitution-visco-elastic` with a = 0.125 at most: 2.1e-6, and 2.6e-6 of order dt^2",
     },
     kind: Kind::Verification,
@@ -179,6 +185,7 @@ pub const TSUJI_TABLE: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-5,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "The damping force starts like the fourth root of time: the trapezoidal rule errs by -zeta(-1/4) = 0.320 of \
                   alpha dt^1.25, times e 1.3e-5 at alpha = 0.6 with dt = 3.22/4000; half as much again for order dt^1.5",
     },
@@ -215,6 +222,7 @@ pub const TSUJI: Claim = Claim {
     tolerance: Tolerance {
         value: 5e-5,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "0.320 alpha dt^1.25 e with dt = 3.22/2000: alpha e is largest near alpha = 1.6, where this is 3.5e-5; half \
                   as much again for higher orders",
     },
@@ -246,6 +254,7 @@ pub const TSUJI_SPEED: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-11,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "Steps scale with the contact, so only rounding differs: the overlap (4e-6 m at 0.01 m/s) is a difference of \
                   lengths of 1e-2 m, 1.7e-18/4e-6 = 4e-13 in each of up to 1000 steps, at random: 1.3e-11",
     },
@@ -279,6 +288,7 @@ pub const ASKED_FOR: Claim = Claim {
     tolerance: Tolerance {
         value: 2.5e-4,
         at: Rung::At(2000.0),
+        basis: Basis::Derived,
         because: "A dashpot acts from the first instant; touching without overlap has no force in the code, so half a step of \
                   damping is lost: b pi/N of the speed, b pi e/N = 2.30e-4 at e = 0.2 (b = 0.731); a tenth for order 1/N^2",
     },
@@ -305,7 +315,12 @@ pub const NO_ATTRACTION: Claim = Claim {
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "A", short: &[0.2, 0.5, 0.7], full: &[0.05, 0.1, 0.2, 0.35, 0.5, 0.7] },
     order: None,
-    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "The force is max(0, ...): exact" },
+    tolerance: Tolerance {
+        value: 0.0,
+        at: Rung::Every,
+        basis: Basis::Derived,
+        because: "The force is max(0, ...): exact",
+    },
     kind: Kind::Verification,
     measure: |_, a| {
         let linear =

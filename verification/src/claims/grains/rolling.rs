@@ -3,7 +3,9 @@
 use super::support::{
     G, RADIUS, mass, rest_on_floor, resting_overlap, run_until, setup, trough, wall, worst,
 };
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use crate::exact::grains::rolling::{
     arm_ratio, incline_acceleration, rolling_deceleration, rolling_pendulum, rolling_speed, rolling_time,
     slip_slope, turntable_rate,
@@ -73,6 +75,7 @@ pub const SLIDING: Claim = Claim {
     tolerance: Tolerance {
         value: 7e-5,
         at: Rung::At(7e8),
+        basis: Basis::Derived,
         because: "Friction acts at r - delta: (4/7) delta/r = 6.1e-5 with the overlap of the sphere's weight, ~ E^(-2/3)",
     },
     kind: Kind::Verification,
@@ -109,6 +112,7 @@ pub const SLIDING_ARM: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-12,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "Force and torque of friction are in exact proportion: rounding of 1e-16 in each of 1e4 steps, 1e-12, and as much \
                   for what is left of the damped oscillation of the tangential spring",
     },
@@ -138,6 +142,7 @@ pub const SLIDING_TIME: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-11,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "While it slips all forces are constant, which the scheme integrates exactly, and the moment is found by a line \
                   through two steps: rounding of 1e-16 in each of up to 1e5 steps. (From 7 MPa on the spring reaches its cap \
                   within the first step.)",
@@ -179,7 +184,7 @@ fn descend(young: f64, mu: f64, theta: f64, steps: u64) -> Result<Descent, Verif
     })
 }
 
-/// Both sides of the threshold.
+/// Acceleration down a slope below and above the threshold of slip.
 pub const INCLINE: Claim = Claim {
     id: "incline-acceleration",
     title: "Down a slope a sphere rolls or slips with the right acceleration",
@@ -199,6 +204,7 @@ pub const INCLINE: Claim = Claim {
     tolerance: Tolerance {
         value: 3e-4,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "Rolling: friction's arm r - delta, (4/7) delta/r = 2.8e-4 with delta/r = 4.97e-4 at 5 degrees; slipping: rounding",
     },
     kind: Kind::Verification,
@@ -224,6 +230,7 @@ pub const THRESHOLD: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-4,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "Friction's arm: (1 + q)/(7/2) = 1 - (10/7) delta/r, delta/r = 1.07e-4 at most: 1.5e-4; the bisection stops at 1e-5",
     },
     kind: Kind::Verification,
@@ -286,6 +293,7 @@ pub const TURNTABLE: Claim = Claim {
     tolerance: Tolerance {
         value: 7.5e-4,
         at: Rung::At(7e7),
+        basis: Basis::Derived,
         because: "Friction's arm r - delta: 1/(1 + q) is (10/7) delta/r = 7.1e-4 too large with delta/r = 4.98e-4",
     },
     kind: Kind::Verification,
@@ -344,6 +352,7 @@ pub const PENDULUM: Claim = Claim {
     tolerance: Tolerance {
         value: 5.2e-5,
         at: Rung::At(7e8),
+        basis: Basis::Derived,
         because: "Arm r - delta and centre's circle R - r + delta: (2/7 + 1/18) delta/r; delta is that of up to 1.66 weights, 1.4 times \
                   1.07e-4 r: 5.1e-5",
     },
@@ -368,6 +377,7 @@ pub const RESISTANCE: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-12,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "Constant forces after the springs have found their elongation: rounding of 1e-16 in each of 1e4 steps, 1e-12, and as \
                   much for what is left of the damped oscillation",
     },

@@ -1,7 +1,7 @@
 //! A sphere that spins about the normal of its only contact.
 
 use super::support::{G, RADIUS, rest_on_floor, run_until, setup};
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use lahar::dem::{Dem, PairProperties, V3};
 use lahar::solver::run::Backend;
 
@@ -22,6 +22,7 @@ pub const RESISTANCE: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-12,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "A constant torque once the spring has found its elongation: rounding of 1e-16 in each of 1e4 steps, 1e-12, and as much \
                   for the weight, which rests on the floor to 1e-12",
     },

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::equilibrium::Sequence;
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use lahar::collision::{CollisionChoice, OddRate};
 use lahar::rheology::Law;
 use lahar::setup::{BodyForce, FlowPoint, Setup};
@@ -80,6 +80,7 @@ pub const CONSERVATION: Claim = Claim {
     tolerance: Tolerance {
         value: 50.0 * 30.0 * 0.5 * f64::EPSILON * 0.05,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "rounding: 50 steps, each about 30 operations on sums of populations below 0.05",
     },
     kind: Kind::Verification,

@@ -1,6 +1,6 @@
 //! Moments of the weights \[L2\], in integers.
 
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use lahar::lattice::{C, Q, W};
 use lahar::solver::run::Backend;
 
@@ -77,7 +77,12 @@ pub const IDENTITIES: Claim = Claim {
         full: &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0],
     },
     order: None,
-    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "integer arithmetic: nothing is rounded" },
+    tolerance: Tolerance {
+        value: 0.0,
+        at: Rung::Every,
+        basis: Basis::Derived,
+        because: "integer arithmetic: nothing is rounded",
+    },
     kind: Kind::Verification,
     measure: measure_identities,
 };
@@ -120,7 +125,12 @@ pub const SIXTH_ORDER: Claim = Claim {
         full: &[1.0, 2.0, 3.0],
     },
     order: None,
-    tolerance: Tolerance { value: 0.0, at: Rung::Every, because: "integer arithmetic: nothing is rounded" },
+    tolerance: Tolerance {
+        value: 0.0,
+        at: Rung::Every,
+        basis: Basis::Derived,
+        because: "integer arithmetic: nothing is rounded",
+    },
     kind: Kind::PredictedFailure,
     measure: measure_sixth,
 };

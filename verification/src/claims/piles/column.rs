@@ -24,7 +24,7 @@ pub struct Deposit {
     pub aspect: f64,
     /// (L − L₀)/L₀ by the farthest grain connected to the deposit.
     pub runout: f64,
-    /// The same by the place where the mean thickness falls through one radius.
+    /// (L − L₀)/L₀ by the place where the mean thickness falls through one radius.
     pub thin: f64,
     /// Height of the deposit over the column's width.
     pub height: f64,
@@ -93,6 +93,40 @@ pub fn collapse(matter: &Matter, across: f64, aspect: f64, seed: u64) -> Result<
     KNOWN.get(&format!("{matter:?} {across} {aspect} {seed}"), || fall(matter, across, aspect, seed))
 }
 
+/// What is known of a deposit before its shape is taken.
+struct Seen {
+    grains: usize,
+    height: f64,
+    width: f64,
+    depth: f64,
+    lively: f64,
+    time: f64,
+}
+
+/// The deposit made of the grains that are `part` of it.
+fn deposit(d: &Dem, part: &[bool], seen: &Seen) -> Deposit {
+    let b = d.bodies();
+    let Seen { grains, height, width, depth, lively, time } = *seen;
+    let front = (0..b.len()).filter(|&i| part[i]).map(|i| b.position[i].x + b.radius[i]).fold(0.0, f64::max);
+    let shape = profile(d, depth);
+    let thin = shape.iter().position(|&h| h < R).unwrap_or(shape.len()) as f64 * 2.0 * R;
+    Deposit {
+        grains,
+        aspect: height / width,
+        runout: front / width - 1.0,
+        thin: thin / width - 1.0,
+        height: shape[0] / width,
+        lost: grains - part.iter().filter(|p| **p).count(),
+        liveliest: lively,
+        time,
+        profile: shape
+            .iter()
+            .enumerate()
+            .map(|(k, h)| [(k as f64 + 0.5) * 2.0 * R / width, h / width])
+            .collect(),
+    }
+}
+
 fn fall(matter: &Matter, across: f64, aspect: f64, seed: u64) -> Result<Deposit, DemError> {
     let (width, depth) = (2.0 * R * across, 8.0 * R * (1.0 + 1e-9));
     let matter = matter.taller(across * aspect / 10.0);
@@ -136,25 +170,8 @@ fn fall(matter: &Matter, across: f64, aspect: f64, seed: u64) -> Result<Deposit,
             .map(|i| (b.translational_energy(i) + b.rotational_energy(i)) / (b.mass[i] * G * R))
             .fold(0.0, f64::max);
         if lively < REST || time > LONGEST[1] {
-            let front =
-                (0..b.len()).filter(|&i| part[i]).map(|i| b.position[i].x + b.radius[i]).fold(0.0, f64::max);
-            let shape = profile(&d, depth);
-            let thin = shape.iter().position(|&h| h < R).unwrap_or(shape.len()) as f64 * 2.0 * R;
-            return Ok(Deposit {
-                grains,
-                aspect: height / width,
-                runout: front / width - 1.0,
-                thin: thin / width - 1.0,
-                height: shape[0] / width,
-                lost: grains - part.iter().filter(|p| **p).count(),
-                liveliest: lively,
-                time,
-                profile: shape
-                    .iter()
-                    .enumerate()
-                    .map(|(k, h)| [(k as f64 + 0.5) * 2.0 * R / width, h / width])
-                    .collect(),
-            });
+            let seen = Seen { grains, height, width, depth, lively, time };
+            return Ok(deposit(&d, &part, &seen));
         }
     }
 }

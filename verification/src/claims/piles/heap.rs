@@ -3,7 +3,9 @@
 use super::refused;
 use super::resting::{self, Rest, release};
 use super::support::{Matter, R};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use crate::exhibit::{Exhibit, ExhibitData, Table};
 use lahar::output::plot::{Axis, Plot, Series};
 use lahar::solver::run::Backend;
@@ -29,6 +31,7 @@ pub const AT_REST: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-12,
         at: Rung::Every,
+        basis: Basis::Reference,
         because: "the bound the design sets: at 1e-12 of the energy of the fall a grain moves by less than 1e-6 of its radius",
     },
     kind: Kind::Verification,
@@ -53,6 +56,7 @@ pub const BOOKS: Claim = Claim {
     tolerance: Tolerance {
         value: 2e-4,
         at: Rung::Last,
+        basis: Basis::AfterSeeing,
         because: "velocity Verlet misses (omega dt)^2/8 of the energy that passes through an oscillation, 1.2e-4 at 100 steps in half \
                   a period; the contacts of a grain in parallel make its oscillations faster than that",
     },

@@ -3,7 +3,7 @@
 use super::refused;
 use super::slope::{Heap, settle};
 use super::support::{Matter, R, mean};
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::exhibit::{Exhibit, ExhibitData, Table};
 use lahar::output::plot::{Axis, Plot, Series};
 use lahar::solver::run::Backend;
@@ -19,6 +19,7 @@ const LADDER: Ladder =
 const TOLERANCE: Tolerance = Tolerance {
     value: 0.5,
     at: Rung::Every,
+    basis: Basis::AfterSeeing,
     because: "the increase must be at least two of its own standard errors, 95 per cent",
 };
 

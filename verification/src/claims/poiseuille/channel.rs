@@ -320,7 +320,7 @@ pub fn steady_column(backend: &dyn Backend, column: &Column, tolerance: f64) -> 
     steady_from(backend, column, &column.developed()?, tolerance)
 }
 
-/// The same from another start.
+/// Runs a column to its steady state from the set-up given.
 pub fn steady_from(
     backend: &dyn Backend,
     column: &Column,

@@ -104,6 +104,21 @@ fn row(backend: &dyn Backend, column: &Column) -> Result<Row, VerifyError> {
     })
 }
 
+/// One plot per quantity, one curve per scheme.
+fn limit_plots(curves: &[[Vec<[f64; 2]>; 3]; 3]) -> Vec<Plot> {
+    let mut plots = Vec::new();
+    let labels = ["u_max/u_plug", "relative RMS error", "plug half-width / h"];
+    for (k, label) in labels.into_iter().enumerate() {
+        let y = if k == 1 { Axis::log(label, "") } else { Axis::linear(label, "") };
+        let mut plot = Plot::new(format!("{label} against τ_max"), Axis::linear("τ_max", ""), y);
+        for (series, name) in curves.iter().zip(["papers' scheme", "implicit clamp", "exact yield"]) {
+            plot = plot.with(Series::line_markers(name, series[k].clone()));
+        }
+        plots.push(plot);
+    }
+    plots
+}
+
 fn against_limit(
     backend: &dyn Backend,
     n: usize,
@@ -159,15 +174,7 @@ fn against_limit(
         }
     }
     data.tables.push(table);
-    let labels = ["u_max/u_plug", "relative RMS error", "plug half-width / h"];
-    for (k, label) in labels.into_iter().enumerate() {
-        let y = if k == 1 { Axis::log(label, "") } else { Axis::linear(label, "") };
-        let mut plot = Plot::new(format!("{label} against τ_max"), Axis::linear("τ_max", ""), y);
-        for (series, name) in curves.iter().zip(["papers' scheme", "implicit clamp", "exact yield"]) {
-            plot = plot.with(Series::line_markers(name, series[k].clone()));
-        }
-        data.plots.push(plot);
-    }
+    data.plots.extend(limit_plots(&curves));
     Ok(())
 }
 

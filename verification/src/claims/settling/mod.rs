@@ -49,7 +49,7 @@ pub static STUDY: Study = Study {
     limits: &[
         "Tolerances for spheres are that of their radius, 0.12/R^2 with the interpolated surface and 0.1/R with half-way links, R in cells, \
          mean over three places of the centre. The powers are those of the schemes; the constants were set after a first look at c = 0.027 \
-         to 0.4 (largest found: 0.09 and 0.05).",
+         to 0.4 (largest found: 0.09 and 0.05). Other claims use 0.09 or 0.25 over R^2 for the same effect; no constant is derived.",
         "With central moments the drag depends on the viscosity although its odd rate keeps 3/16: its even moments of fourth order \
          relax at once. At R = 3 cells it changes by 4 % from tau = 0.55 to 4. The two-relaxation-time operator with 3/16 does not \
          depend on it: scenes with grains in a Newtonian fluid take it when nothing else is asked for.",

@@ -52,6 +52,23 @@ fn profiles(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyErro
     Ok(ExhibitData { plots: vec![plot], ..ExhibitData::default() })
 }
 
+fn spread_plot(times: &[f64], radii: &[Vec<f64>; 4]) -> Result<Plot, VerifyError> {
+    let names = ["exact yield", "clamped", "twin", "clamped twin"];
+    let mut plot =
+        Plot::new("Spread against time", Axis::log("t", "mu/(rho g H)"), Axis::linear("R / H", ""));
+    for (k, (name, radii)) in names.iter().zip(radii).enumerate() {
+        let points: Vec<[f64; 2]> = times.iter().zip(radii).map(|(t, r)| [*t, *r]).collect();
+        plot = plot.with(if k < 2 {
+            Series::line_markers(*name, points)
+        } else {
+            Series::reference(*name, points)
+        });
+    }
+    let rest = twin::rest(&HEAP)?.edge();
+    let ends = vec![[times[0], rest], [times[times.len() - 1], rest]];
+    Ok(plot.with(Series::line("Roussel-Coussot", ends)))
+}
+
 fn clamp(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
     let n = 6.0;
     let longest = if full { 8 } else { 6 };
@@ -96,20 +113,7 @@ fn clamp(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> 
         row.extend([exact[i].speed.into(), clamped[i].speed.into()]);
         table.push(row);
     }
-    let names = ["exact yield", "clamped", "twin", "clamped twin"];
-    let mut plot =
-        Plot::new("Spread against time", Axis::log("t", "mu/(rho g H)"), Axis::linear("R / H", ""));
-    for (k, (name, radii)) in names.iter().zip(&radii).enumerate() {
-        let points: Vec<[f64; 2]> = times.iter().zip(radii).map(|(t, r)| [*t, *r]).collect();
-        plot = plot.with(if k < 2 {
-            Series::line_markers(*name, points)
-        } else {
-            Series::reference(*name, points)
-        });
-    }
-    let rest = twin::rest(&HEAP)?.edge();
-    let ends = vec![[times[0], rest], [times[times.len() - 1], rest]];
-    plot = plot.with(Series::line("Roussel-Coussot", ends));
+    let plot = spread_plot(&times, &radii)?;
     let notes = vec![format!(
         "At N = {n} and this time step tau_max = 1.5 is an apparent viscosity of {most:.2} plastic ones; the bed of the heap \
          flows wherever it should stand."

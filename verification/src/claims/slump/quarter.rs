@@ -2,7 +2,7 @@
 
 use super::scene::Heap;
 use super::shear::HEAP;
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use lahar::solver::run::{Backend, Run};
 
 /// The heap of the shear regime, narrower so that the whole of it is small too.
@@ -55,6 +55,7 @@ pub const QUARTER: Claim = Claim {
     tolerance: Tolerance {
         value: 0.0,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "a mirrored cell does the same sums in the same order",
     },
     kind: Kind::Verification,
@@ -100,6 +101,7 @@ pub const MASS: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-12,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "each step rounds the masses of some 400 cells: 1e5 steps of random rounding, \
                   1e-16 x (1e5)^1/2, leave 3e-14; a drift of one rounding a step would leave 1e-11",
     },

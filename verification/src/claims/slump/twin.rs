@@ -29,7 +29,7 @@ pub fn ideal(heap: &Heap, times: &[f64]) -> Result<Vec<Snapshot>, VerifyError> {
     history(heap, law(heap), CELLS, times)
 }
 
-/// The same with the apparent viscosity clamped to `most` and `most/ratio`, in units of μ.
+/// The spreading heap at the given times (units of [`Heap`]), the apparent viscosity clamped to `most` and `most/ratio`, in units of μ.
 pub fn clamped(heap: &Heap, most: f64, ratio: f64, times: &[f64]) -> Result<Vec<Snapshot>, VerifyError> {
     history(heap, Trilinear::new(law(heap), most / ratio, most).map_err(no_reference)?, CELLS, times)
 }

@@ -6,6 +6,7 @@ mod layers;
 mod limits;
 mod mutants;
 mod noise;
+mod reference;
 
 use crate::golden::Agreement;
 use crate::study::Study;
@@ -49,6 +50,7 @@ pub static STUDY: Study = Study {
         "The central-moment and regularised operators remove the Galilean defect 3 U² of a shear wave along an axis, not that of in-plane diagonal waves: 9/4 U² against 3/2 U² for BGK, because the lattice has no free moment xxx.",
         "In moving material that never yields, the central-moment and regularised operators amplify off-axis waves by about 1.5 U² per step (0.4 % at U = 0.05) and 0.15 U² respectively; BGK and TRT do not. The wave ends where its stress makes the material yield.",
         "Below about tau = 0.5015 the central-moment operator with its default odd rate, and below about 0.5011 the regularised one, amplify waves even in fluid at rest (by 6e-4 per step at tau = 0.501): the stability limit is zero there. BGK and TRT are stable at rest at every tau.",
+        "The independent table covers one and two relaxation times. The limits of the central-moment operator, which `plan` uses by default, rest on lahar's own linearisation.",
         "The limits are those of uniform flow: neither walls nor gradients of tau or velocity are in the analysis.",
         "Below tau = 0.51 the growing waves of operators with one small odd rate fill thin shells of wave vectors; the search then gives upper bounds that scatter by about 10 %.",
     ],

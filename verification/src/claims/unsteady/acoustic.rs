@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use std::sync::Arc;
 
 use super::support::{Oscillation, central, largest};
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::exact::shear_wave::{sound_decay_rate, standing_wave_frequency};
 use lahar::collision::CollisionChoice;
 use lahar::rheology::Law;
@@ -167,12 +167,14 @@ const fn claim(
 const FREQUENCY: Tolerance = Tolerance {
     value: 1e-2,
     at: Rung::Every,
+    basis: Basis::Reference,
     because: "H11. Damping lowers the frequency by (gamma/omega)^2/2, the lattice by (kH/H)^2/24 and \
               the density change g H/c_s^2 = 1e-2 by a fraction of itself",
 };
 const DECAY: Tolerance = Tolerance {
     value: 5e-2,
     at: Rung::Every,
+    basis: Basis::Reference,
     because: "H11. Density changes by 1e-2 over the height, and the wave steepens in proportion to u/c_s = 4e-3",
 };
 
@@ -254,6 +256,7 @@ pub const HYDROSTATIC: Claim = claim(
     Tolerance {
         value: 1e-15,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "rounding of populations of the size of the pressure, 1e-3, over a thousand steps; H11 itself allows 1e-6",
     },
     |backend, tau| hydrostatic(backend, CENTRAL, tau),

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use super::support::{from_middle, largest};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use crate::exact::flow_curve::FlowCurve;
 use crate::exact::poiseuille::Channel;
 use lahar::rheology::Law;
@@ -26,7 +28,7 @@ pub struct Oblique {
 pub struct Plug {
     /// u(0) − u(y) over U, at every cell.
     pub lag: Vec<f64>,
-    /// The same predicted.
+    /// u(0) − u(y) over U, as the missing moment predicts it at every cell.
     pub predicted: Vec<f64>,
     /// σ0/(ρ c_s²), the elastic strain at yield: twice n_x n_z of it is predicted for the whole plug.
     pub strain: f64,
@@ -129,6 +131,7 @@ const fn claim(
         tolerance: Tolerance {
             value: 1.0 / 64.0,
             at: Rung::Every,
+            basis: Basis::AfterSeeing,
             because: "second order in the 8 cells of half a plug",
         },
         kind: Kind::PredictedFailure,

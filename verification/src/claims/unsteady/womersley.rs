@@ -3,7 +3,9 @@
 use core::f64::consts::TAU;
 
 use super::support::{central, column, from_middle, starting_profile};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use crate::exact::womersley::WomersleySlit;
 use lahar::collision::{CollisionChoice, OddRate};
 use lahar::rheology::Law;
@@ -113,7 +115,7 @@ const FINE: Ladder =
     Ladder { parameter: "N (cells across)", short: &[32.0, 64.0, 128.0], full: &[32.0, 64.0, 128.0, 256.0] };
 
 const fn within(value: f64, because: &'static str) -> Tolerance {
-    Tolerance { value, at: Rung::Last, because }
+    Tolerance { value, at: Rung::Last, basis: Basis::AfterSeeing, because }
 }
 
 /// α = 1, TRT.

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use super::waves::{AMPLITUDE, skip};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use crate::exact::discrete_modes::{Relaxation, sound};
 use crate::exact::shear_wave::{sound_decay_rate, sound_speed};
 use lahar::collision::{CollisionChoice, OddRate};
@@ -114,6 +116,7 @@ pub const DAMPING: Claim = Claim {
     tolerance: Tolerance {
         value: 1e-7,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "eigenvalues good to 1e-9; rounding 1e-14 of the amplitude over a decay of 1e-5 per step in 55 steps",
     },
     kind: Kind::Verification,
@@ -159,6 +162,7 @@ pub const UNIT_TRACE: Claim = Claim {
     tolerance: Tolerance {
         value: 1.0e-2,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "error of the scheme: at most k²/4 at the coarsest wave, k = 2π/32",
     },
     kind: Kind::Verification,
@@ -202,6 +206,7 @@ pub const SPEED: Claim = Claim {
     tolerance: Tolerance {
         value: 4e-3,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "error of the scheme: at most k²/10 at the coarsest wave, k = 2π/32",
     },
     kind: Kind::Verification,

@@ -1,7 +1,9 @@
 //! What can be said about work in advance.
 
-use super::flows::{Outcome, Trial};
-use crate::claim::{Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError};
+use super::trial::{Outcome, Trial};
+use crate::claim::{
+    Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
+};
 use lahar::plan::work::{Case, Operator, Scheme, Walls};
 use lahar::solver::fast::Fast;
 use lahar::solver::plain::Plain;
@@ -44,6 +46,7 @@ pub const UPDATES: Claim = Claim {
     tolerance: Tolerance {
         value: 0.02,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "the error is looked at twenty times per relaxation time, rounded up to whole steps: one look in 276, and \
                   at N = 8 the interval of 5 steps stands for 1.6; the discrete decay differs by π²/(12N²) = 1.3 % at N = 8",
     },
@@ -108,6 +111,7 @@ pub const CLAMP: Claim = Claim {
     tolerance: Tolerance {
         value: 0.05,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "the clamped core moves ahead by 2G(τ_max − ½) on the lattice, 6Gν_max(Δt/Δx²)²Δx² in the units of the \
                   channel with ν_max = 26.7, which is 2 % of the plug's 0.3125 at N = 16 for Δt/Δx² = 0.05: steps have to \
                   be eighty times shorter than the 4 of the exact yield; a factor of four is left for transients",
@@ -144,6 +148,7 @@ pub const ORDER_BINGHAM: Claim = Claim {
     tolerance: Tolerance {
         value: 0.05,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "midpoint rule for γ̇ over the cells: h²/8 times the slope of γ̇ per sheared length, 2/N² of the plug's \
                   velocity, 3.1 % at N = 8, plus the tenth that is left of the transient",
     },
@@ -168,6 +173,7 @@ pub const ORDER_HERSCHEL_BULKLEY: Claim = Claim {
     tolerance: Tolerance {
         value: 0.05,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "midpoint rule for γ̇ ∝ s³, s the stress above yield, over M = N/4 sheared cells: 1/(2M²) of the plug's \
                   velocity, 3.1 % at N = 16, plus the tenth that is left of the transient and the cell that holds the yield \
                   surface. Order 2 is approached from below: with M = 4 the cells at the wall and at the plug are half of all",
@@ -193,6 +199,7 @@ pub const ORDER_VORTEX: Claim = Claim {
     tolerance: Tolerance {
         value: 0.05,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "at most k²/4 in the viscosity of each of the two wave components, k = 2π/16, times ln 2 of decay, and \
                   U² = 0.01; the work grows as N⁴",
     },
@@ -213,6 +220,7 @@ pub const ORDER_FILM: Claim = Claim {
     tolerance: Tolerance {
         value: 0.05,
         at: Rung::Every,
+        basis: Basis::AfterSeeing,
         because: "midpoint rule, 1/(8H²) to 0.2/H² by fill as for the Newtonian film, doubled for the yield surface that may \
                   lie anywhere in its cell: 2.5 % at 4 cells; compression adds 3 g H cos θ = 0.12/H²",
     },
@@ -252,6 +260,7 @@ pub const BACKENDS: Claim = Claim {
     tolerance: Tolerance {
         value: 0.0,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "the same operations in the same order: the same bits",
     },
     kind: Kind::Verification,

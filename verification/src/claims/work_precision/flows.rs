@@ -9,64 +9,18 @@ use crate::claims::poiseuille::clamped::lagged;
 use crate::exact::film::Film;
 use crate::exact::flow_curve::FlowCurve;
 use crate::exact::taylor_green::{Plane, TaylorGreen2d};
-use lahar::collision::{CollisionChoice, OddRate};
-use lahar::plan::work::{Case, Operator, Point, Scheme, Walls};
+use lahar::plan::work::{Case, Operator, Point, Walls};
 use lahar::rheology::Law;
 use lahar::setup::{FlowPoint, Setup, WallRule, YieldTreatment};
 use lahar::solver::run::{Backend, Run};
 
 use super::releases;
 use super::steady::until_it_stays;
+use super::trial::{Outcome, Trial, over, put};
 use crate::claims::viscosity::vortices::{centre, flat, vortex_setup};
 
 /// Lattice velocity of the channels: no error from compressibility.
 pub(super) const SPEED: f64 = 1e-3;
-
-/// Largest and least apparent viscosity of the papers' scheme over the plastic one: 80/3 Pa s, their
-/// τ = 1.5, and a thousandth of it, τ = 0.501, over the 0.2 Pa s of the channel.
-pub(super) const CLAMP: [f64; 2] = [80.0 / 3.0 / 0.2, 80.0 / 3.0 / 0.2 / 1000.0];
-
-/// One run that could be made.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Trial {
-    /// The flow.
-    pub case: Case,
-    /// How.
-    pub scheme: Scheme,
-    /// N.
-    pub n: f64,
-    /// Δt/Δx² over the standard one.
-    pub step: f64,
-}
-
-/// What a run gave.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
-    /// Its error.
-    pub error: f64,
-    /// Steps.
-    pub steps: u64,
-    /// Cell updates.
-    pub updates: f64,
-}
-
-/// Puts a scheme into a set-up. The clamp keeps the apparent viscosity within [`CLAMP`] times `plastic`.
-pub(super) fn put(scheme: Scheme, plastic: f64, setup: &mut Setup) {
-    setup.collision = match scheme.operator {
-        Operator::CentralMoment => CollisionChoice::default(),
-        Operator::Trt => {
-            CollisionChoice::Trt(OddRate { floor: OddRate::STANDARD.floor, ..OddRate::fixed(3.0 / 16.0) })
-        }
-        Operator::Bgk | Operator::LaggedClamp => CollisionChoice::Bgk,
-    };
-    if scheme.walls == Walls::HalfWay {
-        setup.wall_rule = WallRule::HalfWay;
-    }
-    if scheme.operator == Operator::LaggedClamp {
-        let [tau_max, tau_min] = CLAMP.map(|ratio| 0.5 + 3.0 * ratio * plastic);
-        setup.yielding = YieldTreatment::LaggedClamped { tau_min, tau_max };
-    }
-}
 
 impl Trial {
     /// τ of the plastic viscosity; for Herschel-Bulkley fluids that of the apparent one without yield
@@ -290,14 +244,10 @@ fn put_collision(setup: &mut Setup, trial: &Trial) {
     (setup.yielding, setup.wall_rule) = (yielding, wall);
 }
 
-/// The budget does not suffice.
-pub(super) fn over(steps: u64) -> VerifyError {
-    VerifyError::NotSteady { steps, residual: f64::NAN, wanted: 0.0 }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lahar::plan::work::Scheme;
     use lahar::solver::plain::Plain;
 
     /// With τ of the previous step lost, every cell would keep the clamp's viscosity, 133 times the plastic

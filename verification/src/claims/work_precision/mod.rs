@@ -11,6 +11,7 @@ mod precision;
 mod releases;
 mod steady;
 mod times;
+mod trial;
 
 /// The study.
 pub static STUDY: Study = Study {

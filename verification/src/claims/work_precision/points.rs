@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use super::flows::{Outcome, Trial};
+use super::trial::{Outcome, Trial};
 use crate::claim::VerifyError;
 use lahar::plan::work::{Case, Operator, Point, Scheme, Walls};
 use lahar::solver::run::Backend;

@@ -8,7 +8,7 @@
 //! neighbouring cells and steps rarely agree. Arithmetic in f32 rounds on the way as well
 //! ([`Precision::roundings`]).
 
-use crate::claim::{Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
+use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::claims::film::support::flow;
 use crate::claims::poiseuille::channel::{BINGHAM, Column, THESIS};
 use crate::claims::viscosity::vortices::flat;
@@ -20,7 +20,8 @@ use lahar::setup::{Face, Precision, Setup};
 use lahar::solver::fast::Fast;
 use lahar::solver::run::{Backend, Run, StartError};
 
-use super::flows::{SPEED, Trial};
+use super::flows::SPEED;
+use super::trial::Trial;
 
 /// The shorter precisions.
 const SHORTER: [Precision; 2] = [Precision::SingleStorage, Precision::Single];
@@ -121,6 +122,7 @@ pub const CHANNEL: Claim = Claim {
     tolerance: Tolerance {
         value: 1.0,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "the floor is a bound: no more roundings than are counted, and none that helps another more than if all \
                   had one sign",
     },
@@ -131,7 +133,7 @@ pub const CHANNEL: Claim = Claim {
 /// What a backend makes of a flow.
 type Flow = Box<dyn Fn(&dyn Backend) -> Result<Vec<f64>, VerifyError>>;
 
-/// The same number from a run in each precision.
+/// How far a run in single precision is from one in double precision.
 fn flows(backend: &dyn Backend, number: f64) -> Result<Sample, VerifyError> {
     let case = [Case::ChannelBingham, Case::ChannelHerschelBulkley, Case::Vortex, Case::FilmBingham]
         [(number as usize).min(3)];
@@ -200,6 +202,7 @@ pub const FLOWS: Claim = Claim {
     tolerance: Tolerance {
         value: 1.0,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "the floor with the least tangent viscosity, at the wall; for the vortices the sum over the steps it takes \
                   them to halve, relative to what is left; for the film with H²/2 in place of N²/8",
     },
@@ -256,6 +259,7 @@ pub const MASS: Claim = Claim {
     tolerance: Tolerance {
         value: 1.0,
         at: Rung::Every,
+        basis: Basis::Derived,
         because: "a rounding has a standard deviation of 1/√3 of its largest value and most cells are slower than a quarter of \
                   the lid: seven standard deviations. Roundings of one sign would give √(steps × cells) = 1600 and more \
                   times as much; in a flow that has become steady the same populations come back and nothing drifts",

@@ -1,6 +1,6 @@
 //! Flows that are let go: a heap and a dam.
 
-use super::flows::{Outcome, Trial, over, put};
+use super::trial::{Outcome, Trial, over, put};
 use crate::claim::VerifyError;
 use crate::claims::columns::{depths, front};
 use crate::claims::dam_break::newtonian::{Block, THRESHOLD, spread_time, viscous};

@@ -1,6 +1,6 @@
 //! When a flow has the error it will have.
 
-use super::flows::Outcome;
+use super::trial::Outcome;
 use crate::claim::VerifyError;
 use lahar::setup::Setup;
 use lahar::solver::run::{Backend, Run};

@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use super::flows::Trial;
 use super::points::schemes;
+use super::trial::Trial;
 use crate::claim::VerifyError;
 use lahar::plan::work::{Case, Speed};
 use lahar::solver::fast::Fast;

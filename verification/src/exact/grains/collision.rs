@@ -93,7 +93,7 @@ pub fn visco_elastic(a: f64) -> Restitution {
     visco_elastic_collision(a).0
 }
 
-/// As [`visco_elastic`], with the time, in units of (m/k)^{2/5} v^{−1/5}, from first touch until the overlap is zero
+/// Restitution of [`visco_elastic`] and the time, in units of (m/k)^{2/5} v^{−1/5}, from first touch until the overlap is zero
 /// again under the first convention (free flight once the force is zero).
 pub fn visco_elastic_collision(a: f64) -> (Restitution, f64) {
     /// Step in σ.

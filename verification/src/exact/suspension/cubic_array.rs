@@ -87,7 +87,7 @@ pub fn drag(c: f64) -> Result<f64, ExactError> {
 /// Settling speed of a cubic array over that of one sphere, 1/K(c), in a box without net volume flux.
 ///
 /// # Errors
-/// As [`drag`].
+/// `Argument` where [`drag`] is not known.
 pub fn settling_ratio(c: f64) -> Result<f64, ExactError> {
     Ok(1.0 / drag(c)?)
 }
@@ -198,7 +198,7 @@ pub fn sangani_acrivos(c: f64) -> Result<f64, ExactError> {
 /// # Arguments
 /// `c`: 0 to 0.45; `exponent`: n, 4.65 at low Reynolds number.
 /// # Errors
-/// As [`drag`].
+/// `Argument` where [`drag`] is not known.
 pub fn richardson_zaki_excess(c: f64, exponent: f64) -> Result<f64, ExactError> {
     Ok(libm::pow(1.0 - c, exponent) * drag(c)?)
 }

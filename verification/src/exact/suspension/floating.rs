@@ -38,7 +38,7 @@ pub fn depth(relative_density: f64) -> Result<f64, ExactError> {
 /// Buoyancy over ρ_f g a³ at a depth: (π/3) η²(3 − η).
 ///
 /// # Errors
-/// As [`submerged_share`].
+/// `Argument` for a depth outside 0 to 2 radii.
 pub fn buoyancy(depth: f64) -> Result<f64, ExactError> {
     Ok(4.0 / 3.0 * PI * submerged_share(depth)?)
 }
@@ -46,7 +46,7 @@ pub fn buoyancy(depth: f64) -> Result<f64, ExactError> {
 /// Radius of the waterline circle over the radius of the sphere, √(η(2 − η)).
 ///
 /// # Errors
-/// As [`submerged_share`].
+/// `Argument` for a depth outside 0 to 2 radii.
 pub fn waterline_radius(depth: f64) -> Result<f64, ExactError> {
     within("depth", depth, 0.0, 2.0, "must lie between 0 and 2 radii")?;
     Ok((depth * (2.0 - depth)).sqrt())

@@ -36,7 +36,7 @@ pub const BROWNIAN_EXPONENT: (f64, f64) = (5.6, 0.1);
 /// uncertainty.
 ///
 /// # Source
-/// As [`BROWNIAN_EXPONENT`]: 4.48 ± 0.04 (checked). Richardson & Zaki's own 4.65 lies near this branch.
+/// Brzinski & Durian 2018, as for [`BROWNIAN_EXPONENT`]: 4.48 ± 0.04 (checked). Richardson & Zaki's own 4.65 lies near this branch.
 pub const NON_BROWNIAN_EXPONENT: (f64, f64) = (4.48, 0.04);
 
 /// Exponent n(Re) of Richardson & Zaki in a wide vessel: 4.65 (Re < 0.2), 4.35 Re^−0.03 (< 1), 4.45 Re^−0.1 (< 500),

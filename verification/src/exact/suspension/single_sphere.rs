@@ -96,7 +96,7 @@ impl DragCurve {
     /// Drag over Stokes drag, C_D Re/24.
     ///
     /// # Errors
-    /// As [`Self::coefficient`].
+    /// `Argument` outside 0 < Re ≤ [`Self::largest_reynolds`].
     pub fn ratio(self, re: f64) -> Result<f64, ExactError> {
         Ok(self.coefficient(re)? * re / 24.0)
     }

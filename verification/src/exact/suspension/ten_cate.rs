@@ -52,7 +52,7 @@ pub struct Run {
     pub stokes: f64,
     /// Largest measured speed over `unbounded_speed`.
     pub speed_ratio: f64,
-    /// The same from the lattice-Boltzmann simulation of the paper in the same box.
+    /// Largest speed over `unbounded_speed` in the lattice-Boltzmann simulation of the paper in the same box.
     pub simulated_ratio: f64,
 }
 

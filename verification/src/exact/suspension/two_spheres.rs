@@ -65,8 +65,10 @@ pub fn approaching_contact(gap: f64) -> Result<f64, ExactError> {
 /// Resistances along the line of centres: F₁ = −6πμa (X11 U₁ + X12 U₂), by superposition of [`in_line`] and
 /// [`approaching`]: (X11, X12).
 ///
-/// # Arguments, errors
-/// As [`approaching`].
+/// # Arguments
+/// `gap` over the radius, positive.
+/// # Errors
+/// `Argument` where [`in_line`] or [`approaching`] is not known.
 pub fn along(gap: f64) -> Result<(f64, f64), ExactError> {
     let (same, opposite) = (in_line(gap)?, approaching(gap)?);
     Ok((0.5 * (same + opposite), 0.5 * (same - opposite)))

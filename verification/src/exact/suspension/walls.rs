@@ -64,8 +64,12 @@ pub fn normal_to_wall(gap: f64) -> Result<f64, ExactError> {
 
 /// Wall factor of a sphere moving along the normal of a flat free surface (no shear, not deformed); exact series.
 ///
-/// # Arguments, errors and source
-/// As [`normal_to_wall`].
+/// # Arguments
+/// `gap`: 1e-6 to 1e6. Error about 1e-16/gap relative.
+/// # Errors
+/// `Argument` outside the range.
+/// # Source
+/// The papers of [`normal_to_wall`].
 pub fn normal_to_free_surface(gap: f64) -> Result<f64, ExactError> {
     within("gap", gap, 1e-6, 1e6, "must lie between 1e-6 and 1e6 radii")?;
     Ok(bispherical(gap, Plane::Free))

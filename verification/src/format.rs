@@ -8,7 +8,7 @@ pub fn scientific(x: f64) -> String {
     significant(x, 3)
 }
 
-/// As [`scientific`], with a given number of significant digits (at least 1).
+/// A given number of significant digits (at least 1): plain between 0.01 and 1000, `1.23e-5` elsewhere.
 #[must_use]
 pub fn significant(x: f64, digits: usize) -> String {
     if x.is_nan() {
