@@ -33,7 +33,7 @@
 //! | laws of grains, stability of operators | [`dem`], [`stability`] |
 //! | laws of one cell, shapes | [`collision`], [`rheology`], [`geometry`] |
 //! | the lattice | [`lattice`] |
-//! | numbers | [`lane`], [`units`], [`fingerprint`] |
+//! | numbers | [`lane`], [`vector`], [`units`], [`fingerprint`] |
 //!
 //! # The map
 //! Equation tags, where they are written down, and a claim that would notice a mistake. `REPORT.md` has

@@ -11,7 +11,7 @@ use sources::{Source, circles, functions, product};
 
 /// The product's modules from the ground up; a module imports from lower floors only.
 const FLOORS: &[&[&str]] = &[
-    &["fingerprint", "lane", "units"],
+    &["fingerprint", "lane", "units", "vector"],
     &["lattice"],
     &["collision", "geometry", "rheology"],
     &["dem", "stability"],
@@ -112,8 +112,10 @@ fn files_and_functions_have_a_size_that_can_be_read() {
         if lines > FILE {
             long.push(format!("{}: {lines} lines", source.path));
         }
+        // A unit test may list its cases one below the other.
+        let is_test = source.path.contains("/tests/") || source.path.ends_with("tests.rs");
         for (line, name, length) in functions(&source.text) {
-            if length > FUNCTION {
+            if length > FUNCTION && !is_test {
                 long.push(format!("{}:{line}: fn {name} has {length} lines", source.path));
             }
         }

@@ -13,6 +13,7 @@ mod flows;
 pub mod grains;
 mod machine;
 mod measure;
+mod scale;
 mod statistics;
 mod table;
 mod yielded;
@@ -23,6 +24,7 @@ pub use error::BenchError;
 pub use grains::GrainSpeed;
 pub use machine::Machine;
 pub use measure::{CaseSpeed, Ratio};
+pub use scale::Scale;
 pub use statistics::Spread;
 
 use crate::plan::available_memory;
@@ -30,7 +32,7 @@ use crate::solver::choose::Best;
 use crate::solver::plain::Plain;
 use crate::solver::run::Backend;
 use bandwidth::{BYTES_PER_NUMBER, BYTES_PER_UPDATE, Speed};
-use cases::{GROUPS, Scale};
+use cases::GROUPS;
 use machine::Memory;
 
 /// Every backend, the plain one first.

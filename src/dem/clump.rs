@@ -2,18 +2,9 @@
 
 use super::rotation::principal;
 use super::union_moments::{Moments, NODES, sum_of_spheres, union};
-use super::{DemError, Orientation, V3};
+use super::{DemError, Orientation, Sphere, V3};
 use nalgebra::{Matrix3, Rotation3};
 use serde::{Deserialize, Serialize};
-
-/// A sphere of a clump, or of a packing.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sphere {
-    /// Centre, m.
-    pub centre: V3,
-    /// Radius, m.
-    pub radius: f64,
-}
 
 /// How mass, centre and inertia of overlapping members are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

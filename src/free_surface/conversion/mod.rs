@@ -3,6 +3,7 @@
 
 mod cells;
 pub mod excess;
+mod hand_on;
 mod refill;
 mod verdict;
 
@@ -15,7 +16,7 @@ use crate::lattice::Q;
 use crate::lattice::moments::{density_excess, momentum};
 use crate::setup::FreeSurface;
 pub use cells::{Cells, touch};
-use excess::{hand_on, move_parked, take_excess};
+use hand_on::{hand_on, move_parked, take_excess};
 use refill::refill;
 pub use refill::{Neighbourhood, mirrored, neighbourhood};
 pub use verdict::verdict;

@@ -1,7 +1,7 @@
 //! Which interface cells fill or empty \[F4\].
 
 use super::cells::{Cells, touch};
-use super::excess::STEPS_PER_MOVE;
+use super::hand_on::STEPS_PER_MOVE;
 use crate::boundary::links::Source;
 use crate::free_surface::Kind;
 use crate::free_surface::hold::Span;

@@ -1,7 +1,5 @@
 //! How many steps of the grains a step of the fluid holds.
 
-use crate::setup::suspension::Lubrication;
-use crate::setup::suspension::lubrication::STIFFEST;
 use crate::dem::{Grain, Shape};
 use crate::plan::error::PlanProblem;
 use crate::plan::facts::Facts;
@@ -9,6 +7,8 @@ use crate::plan::grains::GrainPlan;
 use crate::plan::scale::Scales;
 use crate::plan::warning::LUBRICATED_GAP;
 use crate::scene::Scene;
+use crate::setup::suspension::Lubrication;
+use crate::setup::suspension::lubrication::STIFFEST;
 use crate::units::Units;
 
 /// Most sub-steps that are chosen.

@@ -2,10 +2,10 @@
 
 use crate::geometry::Axis;
 use crate::scene::checker::Checker;
-use crate::vector::norm;
 use crate::scene::{
     BodyForce, Boundary, Domain, Gravity, InitialVelocity, KeyRule, Scene, SceneError, SceneProblem,
 };
+use crate::vector::norm;
 
 /// Solids and layers are numbered in one byte, 0 being fluid (or the first fluid).
 const MAX_ENTRIES: usize = 255;

@@ -6,9 +6,9 @@
 //! every flow needs, `surface` what cells with a kind need besides.
 
 mod grains;
+pub mod memory;
 mod passes;
 mod report;
-pub mod memory;
 mod run;
 mod surface;
 

@@ -84,6 +84,9 @@ fn links_and_names_in_documents_resolve() {
         broken.extend(wrong_links(&root, name, text));
         if name.starts_with("docs") {
             broken.extend(wrong_paths(&root, name, text));
+        }
+        // Names with hyphens in the other pages are flows of `lahar bench`.
+        if name.starts_with("docs") && !name.ends_with("speed.md") {
             broken.extend(wrong_studies(&known, name, text));
         }
     }
