@@ -81,7 +81,8 @@ struct Found {
     spread: f64,
 }
 
-/// The same without the images of the pair, whose effect falls like that of a stresslet: with the volume of the box.
+/// Forces of one pair alone: the effect of its periodic images falls like that of a stresslet, with the volume of the
+/// box, and is extrapolated away.
 fn forces(
     backend: &dyn Backend,
     radius: f64,

@@ -123,6 +123,18 @@ pub const NOISE: Exhibit = Exhibit {
     run: noise,
 };
 
+/// Amplitude of a force at a multiple of the crossing frequency over its mean, Hann window.
+fn amplitude(force: &[f64], mean: f64, multiple: f64) -> f64 {
+    let (mut a, mut b) = (0.0, 0.0);
+    for (t, x) in force.iter().enumerate() {
+        let window = 1.0 - libm::cos(2.0 * PI * t as f64 / force.len() as f64);
+        let phase = 2.0 * PI * multiple * VELOCITY[0] * t as f64;
+        a += window * (x - mean) * libm::cos(phase);
+        b += window * (x - mean) * libm::sin(phase);
+    }
+    2.0 * (a * a + b * b).sqrt() / force.len() as f64 / mean.abs()
+}
+
 fn noise(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> {
     let (cells, steps) = if full { (32, 4000) } else { (20, 1000) };
     let mut table = Table::new(
@@ -155,17 +167,7 @@ fn noise(backend: &dyn Backend, full: bool) -> Result<ExhibitData, VerifyError> 
         let smooth = |i: usize| force[i - 25..=i + 25].iter().sum::<f64>() / 51.0;
         let rest: Vec<f64> = (25..force.len() - 25).map(|i| force[i] - smooth(i)).collect();
         let rms = (rest.iter().map(|x| x * x).sum::<f64>() / rest.len() as f64).sqrt();
-        // Amplitude at a multiple of the crossing frequency, Hann window.
-        let amplitude = |multiple: f64| {
-            let (mut a, mut b) = (0.0, 0.0);
-            for (t, x) in force.iter().enumerate() {
-                let window = 1.0 - libm::cos(2.0 * PI * t as f64 / force.len() as f64);
-                let phase = 2.0 * PI * multiple * VELOCITY[0] * t as f64;
-                a += window * (x - mean) * libm::cos(phase);
-                b += window * (x - mean) * libm::sin(phase);
-            }
-            2.0 * (a * a + b * b).sqrt() / force.len() as f64 / mean.abs()
-        };
+        let amplitude = |multiple: f64| amplitude(&force, mean, multiple);
         let spectrum: Vec<[f64; 2]> =
             (4..=240).map(|i| 0.0125 * f64::from(i)).map(|m| [m, amplitude(m)]).collect();
         let away =

@@ -44,7 +44,7 @@ pub const NOT_ROTATED: Mutant = Mutant {
     subject: Subject::Measure(|_, steps| contact::turned(&SpringNotRotated, steps)),
 };
 
-/// The same in a run.
+/// Spring not turned, in a run of many grains.
 pub const NOT_ROTATED_RUN: Mutant = Mutant {
     id: "spring-not-rotated-run",
     erratum: "DESIGN [D2]",
