@@ -2,8 +2,8 @@
 
 use faer::Mat;
 use lahar::lattice::Q;
-use lahar::stability::{Direction, GROWTH_TOLERANCE, Linearised};
 use lahar::stability::table::table;
+use lahar::stability::{Direction, GROWTH_TOLERANCE, Linearised};
 
 /// Every limit of the table, below it and above it, for the wave that grows first, its long neighbours, and some
 /// others.
