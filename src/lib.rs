@@ -1,10 +1,39 @@
 //! lahar: verification-first lattice-Boltzmann reference implementation for yield-stress fluids.
 //!
 //! # The way of a scene
-//! [`scene`] (SI, checked) → [`plan`] (lattice units, what is needed) → [`setup::Setup`] →
-//! a [`solver::run::Run`] of some [`solver::run::Backend`] → [`output`]. Two backends give the same bits:
-//! [`solver::plain`] is written to be read, [`solver::fast`] to be fast; `tests/backend_parity.rs` compares them. Claims about the physics are
-//! in [`verify`]; [`report`] turns their records into `REPORT.md`.
+//! [`Scene`] (SI, checked) → [`Plan`] (lattice units, what is needed) → [`Setup`] → a [`Run`] of some [`Backend`] →
+//! files. Two backends give the same bits: [`Plain`] is written to be read, [`Fast`] to be fast. What is claimed about
+//! them is in the package `lahar-verification`, which knows this one; nothing here knows it.
+//!
+//! # In Rust
+//! A flow in lattice units is a [`Setup`]:
+//!
+//! ```
+//! use lahar::{Backend, Fast, Law, Setup};
+//!
+//! let setup = Setup::channel(16, Law::Newtonian { mu: 0.1 }, 1e-6);
+//! let mut run = Fast::default().start(&setup)?;
+//! run.advance(100)?;
+//! assert!(run.fields().velocity[8][0] > 0.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The names at the top of this page are what most programs need. The modules below hold the equations, one
+//! function each; they are public for the harness and for readers, and may change between versions.
+//!
+//! # The floors
+//! A module imports only from the lines below its own (`tests/architecture.rs` reads the imports):
+//!
+//! | floor | modules |
+//! | --- | --- |
+//! | what people call | [`bench`], [`run`], [`plan`], [`scene`], [`output`] |
+//! | solvers | [`solver`] |
+//! | parts of a step | [`coupling`], [`free_surface`], [`boundary`] |
+//! | the contract | [`setup`] |
+//! | laws of grains, stability of operators | [`dem`], [`stability`] |
+//! | laws of one cell, shapes | [`collision`], [`rheology`], [`geometry`] |
+//! | the lattice | [`lattice`] |
+//! | numbers | [`lane`], [`units`], [`fingerprint`] |
 //!
 //! # The map
 //! Equation tags, where they are written down, and a claim that would notice a mistake. `REPORT.md` has
@@ -52,6 +81,8 @@
 //! | C6 | surface velocity, implicit in link friction | `coupling/predict.rs` | `coupled-density-ratios` |
 //! | C7 | load on fixed solids | `solver/books.rs` | `wall-hydrostatic-load` |
 
+#![warn(missing_docs)]
+
 pub mod bench;
 pub mod boundary;
 pub mod collision;
@@ -73,3 +104,18 @@ pub mod solver;
 pub mod stability;
 pub mod units;
 pub mod vector;
+
+pub use collision::CollisionChoice;
+pub use fingerprint::Fingerprint;
+pub use geometry::{Axis, Shape};
+pub use lane::Lane;
+pub use plan::{Plan, PlanError};
+pub use rheology::{Law, Rheology, YieldTreatment};
+pub use scene::{Scene, SceneError};
+pub use setup::guard::{Runaway, StartError, Stopped};
+pub use setup::{BodyForce, Face, FlowPoint, FreeSurface, Precision, Setup, SolidMotion, Suspension, WallRule};
+pub use solver::fast::Fast;
+pub use solver::plain::Plain;
+pub use solver::run::{Backend, Fields, Ledger, Load, Run, Totals};
+pub use solver::steady::{SteadyOutcome, SteadyRule, run_to_steady};
+pub use units::Units;

@@ -23,13 +23,32 @@ pub enum StartError {
     },
     /// A per-cell array has the wrong length.
     #[error("`{field}` has {found} entries, but the box has {expected} cells")]
-    Length { field: &'static str, found: usize, expected: usize },
+    Length {
+        /// The array of the set-up.
+        field: &'static str,
+        /// Its length.
+        found: usize,
+        /// Cells in the box.
+        expected: usize,
+    },
     /// A per-cell number points outside its table.
     #[error("cell {cell} names entry {found} of `{table}`, which has {len} entries")]
-    UnknownEntry { table: &'static str, cell: usize, found: usize, len: usize },
+    UnknownEntry {
+        /// The table.
+        table: &'static str,
+        /// Index of the cell.
+        cell: usize,
+        /// The entry it names.
+        found: usize,
+        /// Entries there are.
+        len: usize,
+    },
     /// Only one of the two faces of an axis is periodic.
     #[error("axis {axis}: one face is periodic and the other is not")]
-    HalfPeriodic { axis: char },
+    HalfPeriodic {
+        /// x, y or z.
+        axis: char,
+    },
     /// Nothing to compute.
     #[error("the box has no fluid cell")]
     NoFluid,
@@ -38,17 +57,31 @@ pub enum StartError {
     Grains(Box<DemError>),
     /// A fill outside 0..1.
     #[error("cell {cell} has a fill of {found}; allowed: 0 to 1")]
-    Fill { cell: usize, found: f64 },
+    Fill {
+        /// Index of the cell.
+        cell: usize,
+        /// Its fill.
+        found: f64,
+    },
     /// An open face without a free surface.
     #[error("axis {axis}: an open face needs a free surface")]
-    OpenWithoutSurface { axis: char },
+    OpenWithoutSurface {
+        /// x, y or z.
+        axis: char,
+    },
     /// More cells than this build can index.
     #[error("{cells} cells are more than the {max} this solver can index")]
-    TooManyCells { cells: u128, max: u64 },
+    TooManyCells {
+        /// Cells of the box.
+        cells: u128,
+        /// The most there can be.
+        max: u64,
+    },
 }
 
 /// Why a run stopped by itself.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("stopped at step {step} in cell {cell:?}: {what}")]
 pub struct Stopped {
     /// Step at which the cell was found.
     pub step: u64,
@@ -61,9 +94,10 @@ pub struct Stopped {
 }
 
 /// The ways a cell fails the guard.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Runaway {
     /// The mass ledger does not close within rounding \[F5\]; the cell is the one that exchanged most.
+    #[error("mass changed by {residual:.3e} of the whole in one step; rounding allows {bound:.1e}")]
     Ledger {
         /// Mass gained or lost in this step, relative to the whole.
         residual: f64,
@@ -71,18 +105,22 @@ pub enum Runaway {
         bound: f64,
     },
     /// Density or velocity is not a finite number.
+    #[error("density or velocity is not a finite number")]
     NotFinite,
     /// Density is zero or negative.
+    #[error("density of {density:.4} times the reference density, which is not > 0")]
     NoDensity {
         /// Density found (lattice units, reference 1).
         density: f64,
     },
     /// The grains could not go on; `Immersed::failure` says why.
+    #[error("grain {grain} could not go on")]
     Grains {
         /// The first grain it happened to.
         grain: u32,
     },
     /// A grain is faster than the speed limit (lattice units).
+    #[error("grain {grain} moves {speed:.3} cells per step; the limit is {limit}")]
     GrainTooFast {
         /// Its number.
         grain: u32,
@@ -92,6 +130,7 @@ pub enum Runaway {
         limit: f64,
     },
     /// Faster than the speed limit (lattice units).
+    #[error("{speed:.3} cells per step; the limit is {limit}")]
     TooFast {
         /// Speed found.
         speed: f64,
