@@ -86,7 +86,7 @@ const fn ratio(name: &'static str, quantity: Quantity, of: &'static str, to: &'s
     Compare { name, quantity, of, to }
 }
 
-/// The same flow with other populations.
+/// A flow with populations in single precision.
 fn single(setup: Setup) -> Setup {
     Setup { precision: Precision::Single, ..setup }
 }

@@ -122,7 +122,7 @@ impl Dam {
         }
     }
 
-    /// The same fluid with ten times the room: four times as long, two and a half times as high.
+    /// This fluid with ten times the room: four times as long, two and a half times as high.
     pub(super) const fn roomy(self) -> Self {
         let [length, height] = self.room;
         Self { room: [4 * length, height * 5 / 2], ..self }

@@ -17,7 +17,7 @@ use crate::solver::run::{Backend, Run, StartError};
 const HEADROOM: f64 = 0.9;
 /// Steps before anything is timed. Free surfaces need some to leave their initial shape.
 const WARM_UP: u64 = 2;
-/// The same below a free surface.
+/// Steps before anything is timed below a free surface.
 const WARM_UP_SURFACE: u64 = 20;
 
 /// Speed of one case on one backend.
@@ -47,7 +47,7 @@ pub struct CaseSpeed {
     pub share_of_ceiling: f64,
     /// Bytes held per fluid cell.
     pub bytes_per_fluid_cell: f64,
-    /// The same as predicted.
+    /// Bytes per fluid cell that the plan predicts.
     pub predicted_bytes_per_fluid_cell: f64,
     /// Share of yielded fluid; `None` where everything flows, and where another line of the case says it.
     pub yielded: Option<Yielded>,

@@ -13,9 +13,9 @@ pub struct CouplingBooks {
     link_momentum: VectorSum,
     covered_momentum: VectorSum,
     freed_momentum: VectorSum,
-    /// Cells covered and cells freed so far that held or got fluid.
+    /// Cells covered so far that held fluid.
     pub covered: u64,
-    /// See `covered`.
+    /// Cells freed so far that got fluid.
     pub freed: u64,
 }
 

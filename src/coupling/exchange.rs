@@ -222,7 +222,7 @@ impl Immersed {
     }
 }
 
-/// See [`Immersed::volumes`].
+/// What the surface of a grain displaces, and what of it cannot go where it should; see [`Immersed::volumes`].
 #[derive(Clone, Debug, Default)]
 struct Volumes {
     /// Of each link.

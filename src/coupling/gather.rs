@@ -83,7 +83,7 @@ struct Beside {
     /// From the centre of the grain.
     r: L3,
     rho: f64,
-    /// See [`Open`].
+    /// φ of the cell, 1 in liquid.
     wet: f64,
     interface: bool,
     /// Populations after collision.

@@ -41,7 +41,7 @@ pub struct Bodies {
 /// One body as an integrator moves it.
 #[derive(Debug)]
 pub struct Body<'a> {
-    /// See [`Bodies`], for this and all that follow.
+    /// Centre of mass, m.
     pub position: &'a mut V3,
     /// m/s.
     pub velocity: &'a mut V3,

@@ -59,12 +59,12 @@ impl Grain {
         Self { shape: Shape::Clump(number), orientation, ..Self::sphere(radius, position, material) }
     }
 
-    /// The same grain with a velocity.
+    /// This grain with a velocity, m/s.
     pub fn moving(self, velocity: V3) -> Self {
         Self { velocity, ..self }
     }
 
-    /// The same grain with a spin.
+    /// This grain with a spin, rad/s.
     pub fn spinning(self, spin: V3) -> Self {
         Self { spin, ..self }
     }

@@ -19,7 +19,7 @@ pub struct PairList {
     pub row: Vec<u32>,
     /// Pairs of member b as second side, ascending: `back[back_row[b]..back_row[b + 1]]`.
     pub back_row: Vec<u32>,
-    /// See `back_row`.
+    /// Numbers of pairs, by their second side; see `back_row` for the rows.
     pub back: Vec<u32>,
 }
 

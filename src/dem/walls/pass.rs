@@ -41,9 +41,9 @@ pub struct WallContact {
     pub arm: V3,
     /// On the member, N.
     pub force: V3,
-    /// See [`History`].
+    /// Of the tangential spring.
     pub history: History,
-    /// See [`Rolling`].
+    /// Of the rolling spring.
     pub rolling: Rolling,
 }
 

@@ -33,7 +33,7 @@ pub struct Tangential {
     pub force: f64,
     /// Torque on the first sphere per tangential velocity, and force per spin of the first.
     pub first: f64,
-    /// The same of the second.
+    /// Torque on the second sphere per tangential velocity, and force per spin of the second.
     pub second: f64,
     /// Torque on the first per its own spin, on the second per its own, and on one per the spin of the other.
     pub spins: [f64; 3],

@@ -29,7 +29,7 @@ pub enum GrainRefill {
     /// the mean non-equilibrium part of those neighbours.
     #[default]
     WithStress,
-    /// The same without non-equilibrium part.
+    /// Equilibrium at the mean density of the fluid neighbours and the velocity of the grain's surface there.
     Equilibrium,
     /// Equilibrium at the mean density and the mean velocity of the fluid neighbours.
     Neighbours,
