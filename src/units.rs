@@ -174,12 +174,6 @@ impl Units {
         self.stress_to_si((rho - 1.0) / 3.0)
     }
 
-    /// Gauge pressure in Pa to lattice density.
-    #[must_use]
-    pub fn density_of_pressure(&self, pa: f64) -> f64 {
-        1.0 + 3.0 * self.stress_to_lattice(pa)
-    }
-
     /// Position of a cell centre, metres.
     #[must_use]
     pub fn cell_centre_m(&self, cell: [usize; 3]) -> [f64; 3] {
@@ -190,11 +184,5 @@ impl Units {
     #[must_use]
     pub fn tau_of_viscosity(&self, pa_s: f64) -> f64 {
         0.5 + 3.0 * self.viscosity_to_lattice(pa_s)
-    }
-
-    /// Dynamic viscosity in Pa s of a relaxation time \[L6\].
-    #[must_use]
-    pub fn viscosity_of_tau(&self, tau: f64) -> f64 {
-        self.viscosity_to_si((tau - 0.5) / 3.0)
     }
 }
