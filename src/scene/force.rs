@@ -27,10 +27,15 @@ pub fn gravity_vector(gravity: &Gravity) -> [f64; 3] {
 /// What acts on the fluid of a scene, N/m³, worked out once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forces {
+    /// Acceleration of gravity, m/s²; 0 without gravity.
+    pub gravity: [f64; 3],
+    /// Axes along which the pressure of the fluid at rest is left out ([`Scene::weightless_axes`]).
+    pub weightless: [bool; 3],
+    /// Axes along which a uniform pressure gradient carries the weight ([`Scene::balanced_axes`]).
+    pub balanced: [bool; 3],
     /// Body force with gravity in it.
     pub total: BodyForce,
-    /// Body force that the fluid is computed with: without its weight where the pressure of the fluid at rest is left
-    /// out of the computed one ([`Scene::weightless_axes`]).
+    /// Body force that the fluid is computed with: without its weight along `weightless` axes.
     pub computed: BodyForce,
     /// What of it drives a flow: not the weight that a uniform pressure gradient carries either.
     pub driving: BodyForce,
@@ -54,6 +59,9 @@ impl Forces {
         let extremes = extreme_forces(&total);
         let (up, down_is_low) = strongest(&extremes);
         Self {
+            gravity: scene.gravity.map_or([0.0; 3], |gravity| gravity_vector(&gravity)),
+            weightless,
+            balanced,
             total,
             computed: force_without_weight(scene, weightless),
             driving,

@@ -26,7 +26,6 @@ use super::warning::Warning;
 use crate::coupling::{GrainRefill, GrainWall, Lubrication, Suspension};
 use crate::dem::{Dem, Setup as Grains};
 use crate::scene::dry::DryScene;
-use crate::scene::force::gravity_vector;
 use crate::scene::{GrainRefillChoice, GrainWallChoice, LubricationChoice, Scene};
 use crate::setup::Setup;
 use crate::units::Units;
@@ -177,7 +176,7 @@ impl Started {
         let stepping = sub_steps(scene, units, &grains, lubrication, gap_viscosity(facts, scales))
             .map_err(|problem| at(SUB_STEPS, problem))?;
         take_sub_steps(&mut grains, &view, units, &stepping)?;
-        let suspension = Arc::new(suspension(scene, &grains, units, &stepping, lubrication));
+        let suspension = Arc::new(suspension(facts, &grains, units, &stepping, lubrication));
         setup.grains = Some(Arc::clone(&suspension));
         let findings = Findings { slip, fastest, stepping };
         Ok((Coupled { scene: view, grains, suspension }, findings))
@@ -215,13 +214,13 @@ fn take_sub_steps(
 
 /// What the solver is asked to do with the grains.
 fn suspension(
-    scene: &Scene,
+    facts: &Facts,
     grains: &GrainPlan,
     units: &Units,
     stepping: &Stepping,
     lubrication: Option<Lubrication>,
 ) -> Suspension {
-    let rules = scene.coupling();
+    let (rules, forces) = (facts.scene.coupling(), &facts.forces);
     let mut suspension = Suspension::new(grains.setup.clone(), *units);
     suspension.sub_steps = stepping.sub_steps;
     suspension.wall = match rules.wall {
@@ -234,13 +233,11 @@ fn suspension(
         GrainRefillChoice::Neighbours => GrainRefill::Neighbours,
     };
     suspension.lubrication = lubrication;
-    suspension.balanced = scene.balanced_axes();
-    let weight = scene.gravity.map_or([0.0; 3], |gravity| gravity_vector(&gravity));
-    let weightless = scene.weightless_axes();
+    suspension.balanced = forces.balanced;
     suspension.pressure_gradient = std::array::from_fn(|a| {
-        let weight = units.rho0_kg_per_m3 * weight[a];
+        let weight = units.rho0_kg_per_m3 * forces.gravity[a];
         // Not −0: it would show in hashes of the set-up.
-        if weightless[a] && weight != 0.0 { -units.force_to_lattice(weight) } else { 0.0 }
+        if forces.weightless[a] && weight != 0.0 { -units.force_to_lattice(weight) } else { 0.0 }
     });
     suspension
 }
