@@ -87,16 +87,14 @@ fn render_paper(out: &mut String, paper: &str, chapters: &[Chapter]) {
     }
     out.push('\n');
     if !cover.untagged.is_empty() {
-        let text = cover.untagged.iter().map(|(part, n, id)| format!("{part}{n} (`{id}`)"));
-        let text = text.collect::<Vec<_>>().join(", ");
-        paragraph(
-            out,
-            &format!("*Checked by a claim that does not name it*, one of them in brackets: {text}."),
-        );
+        paragraph(out, "*Checked by a claim that does not name it*, one of them for each:");
+        by_place(&cover.untagged).iter().for_each(|line| item(out, line));
+        out.push('\n');
     }
     if !cover.units.is_empty() {
-        let text = cover.units.iter().map(|(part, n, file)| format!("{part}{n} (`{file}`)"));
-        paragraph(out, &format!("*Tested by unit tests only*: {}.", text.collect::<Vec<_>>().join(", ")));
+        paragraph(out, "*Tested by unit tests only*:");
+        by_place(&cover.units).iter().for_each(|line| item(out, line));
+        out.push('\n');
     }
     let lists = [
         ("Nothing to test (definitions, kinetic theory, steps of derivations)", &cover.not_applicable),
@@ -105,6 +103,22 @@ fn render_paper(out: &mut String, paper: &str, chapters: &[Chapter]) {
     for (words, numbers) in lists.iter().filter(|l| !l.1.is_empty()) {
         paragraph(out, &format!("*{words}*: {}.", ranges(numbers).join(", ")));
     }
+}
+
+/// Equations by where they are checked: ``3.1–3.4: `claim` ``.
+fn by_place(checked: &[(String, u32, &'static str)]) -> Vec<String> {
+    let mut places: Vec<&str> = Vec::new();
+    for (.., place) in checked {
+        if !places.contains(place) {
+            places.push(place);
+        }
+    }
+    let line = |place: &&str| {
+        let of_place = checked.iter().filter(|c| c.2 == *place);
+        let numbers: Vec<(String, u32)> = of_place.map(|(part, n, _)| (part.clone(), *n)).collect();
+        format!("{}: `{place}`", ranges(&numbers).join(", "))
+    };
+    places.iter().map(line).collect()
 }
 
 /// Tables, figures, sections and misprints of the papers, hard cases.

@@ -47,5 +47,5 @@ fn line(tried: &Tried) -> String {
         Detection::Escaped => format!("**escapes**: {}", escaped(&m.how)),
     };
     let claim = format!("[{}](#{})", m.caught_by, anchor(&m.caught_by));
-    format!("`{}` ({}): {}. Claim {claim}: {found}.", m.mutant, m.erratum, escaped(unstopped(&m.description)))
+    format!("`{}`, {}: {}. Claim {claim}: {found}.", m.mutant, m.erratum, escaped(unstopped(&m.description)))
 }
