@@ -17,6 +17,7 @@ mod restitution;
 mod rolling;
 mod rotation;
 mod support;
+mod turntable;
 mod twisting;
 
 /// The study.
@@ -55,7 +56,7 @@ pub static STUDY: Study = Study {
         rolling::SLIDING_TIME,
         rolling::INCLINE,
         rolling::THRESHOLD,
-        rolling::TURNTABLE,
+        turntable::TURNTABLE,
         rolling::PENDULUM,
         rolling::RESISTANCE,
         twisting::RESISTANCE,
