@@ -81,7 +81,7 @@
 //! | C6 | surface velocity, implicit in link friction | `coupling/predict.rs` | `coupled-density-ratios` |
 //! | C7 | load on fixed solids | `solver/books.rs` | `wall-hydrostatic-load` |
 
-#![warn(missing_docs)]
+#![deny(missing_docs)]
 
 pub mod bench;
 pub mod boundary;

@@ -1,4 +1,5 @@
 //! What can be wrong with a set-up, and what stops a run.
+#![allow(missing_docs, reason = "the message beside each variant says what it and its fields are")]
 
 use std::fmt;
 

@@ -85,11 +85,24 @@ pub struct Materials {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Compiled {
     /// A, s.
-    ViscoElastic { time: f64 },
+    ViscoElastic {
+        /// A, s.
+        time: f64,
+    },
     /// α.
-    Tsuji { alpha: f64 },
+    Tsuji {
+        /// α.
+        alpha: f64,
+    },
     /// Stiffness, N/m; damping ratio; tangential stiffness, N/m.
-    Linear { stiffness: f64, ratio: f64, tangential: f64 },
+    Linear {
+        /// Normal stiffness, N/m.
+        stiffness: f64,
+        /// Share of critical damping.
+        ratio: f64,
+        /// Tangential stiffness, N/m.
+        tangential: f64,
+    },
 }
 
 /// Everything the contact kernel needs to know about a pair of materials.

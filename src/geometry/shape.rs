@@ -11,8 +11,11 @@ use crate::vector::{dot, norm, sub};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Axis {
+    /// The first.
     X,
+    /// The second.
     Y,
+    /// The third; up, unless a scene says otherwise.
     Z,
 }
 

@@ -22,6 +22,7 @@ pub struct Disc {
 /// Spheres in the order they are drawn: later ones hide earlier ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Discs {
+    /// Heading.
     pub title: String,
     /// Of the value.
     pub label: String,
@@ -31,6 +32,7 @@ pub struct Discs {
     pub axes: [String; 2],
     /// The box, m; the picture grows if discs lie outside.
     pub size_m: [f64; 2],
+    /// What is drawn.
     pub discs: Vec<Disc>,
 }
 

@@ -24,19 +24,50 @@ pub mod vtp;
 pub enum OutputError {
     /// The operating system refused.
     #[error("cannot {doing} {}: {source}", path.display())]
-    Io { path: PathBuf, doing: &'static str, source: std::io::Error },
+    Io {
+        /// File or folder.
+        path: PathBuf,
+        /// What was tried: `create`, `write`, `rename`, …
+        doing: &'static str,
+        /// Its reason.
+        source: std::io::Error,
+    },
     /// An array or a row does not have the length its container asks for.
     #[error("`{what}` has {found} entries; {expected} are needed")]
-    Length { what: String, found: usize, expected: usize },
+    Length {
+        /// The array or row.
+        what: String,
+        /// Entries it has.
+        found: usize,
+        /// Entries that are needed.
+        expected: usize,
+    },
     /// A file that should be read back is not what it claims to be.
     #[error("{} line {line}: {problem}", path.display())]
-    Malformed { path: PathBuf, line: usize, problem: String },
+    Malformed {
+        /// File.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong with it.
+        problem: String,
+    },
     /// JSON could not be written or read.
     #[error("{}: {source}", path.display())]
-    Json { path: PathBuf, source: serde_json::Error },
+    Json {
+        /// File.
+        path: PathBuf,
+        /// Place and reason.
+        source: serde_json::Error,
+    },
     /// The drawing library refused.
     #[error("figure `{title}`: {detail}")]
-    Draw { title: String, detail: String },
+    Draw {
+        /// Title of the figure.
+        title: String,
+        /// What the library said.
+        detail: String,
+    },
 }
 
 /// Text made safe for XML content and attribute values.

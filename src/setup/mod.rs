@@ -120,9 +120,25 @@ pub enum BodyForce {
     /// The same at all times.
     Constant([f64; 3]),
     /// `mean + amplitude · cos(frequency · t + phase)`, t in steps, frequency in radians per step.
-    Oscillating { mean: [f64; 3], amplitude: [f64; 3], frequency: f64, phase: f64 },
+    Oscillating {
+        /// Mean force.
+        mean: [f64; 3],
+        /// Amplitude.
+        amplitude: [f64; 3],
+        /// Angular frequency, radians per step.
+        frequency: f64,
+        /// Phase at step 0, radians.
+        phase: f64,
+    },
     /// `before` until step `at`, `after` from that step on.
-    Stepped { before: [f64; 3], after: [f64; 3], at: u64 },
+    Stepped {
+        /// Until the step `at`.
+        before: [f64; 3],
+        /// From the step `at` on.
+        after: [f64; 3],
+        /// Step of the change.
+        at: u64,
+    },
 }
 
 /// One point of an initial flow, lattice units.

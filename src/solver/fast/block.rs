@@ -18,10 +18,20 @@ pub struct Place {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Origin {
     /// Population `direction` of another cell.
-    Cell { cell: Place, direction: u8 },
+    Cell {
+        /// Its cell.
+        cell: Place,
+        /// Its direction.
+        direction: u8,
+    },
     /// Bounced back \[B1\] by a wall with this velocity (number in the run's list); `body` as in
     /// [`Source::Wall`].
-    Wall { velocity: u32, body: u8 },
+    Wall {
+        /// Number of the wall velocity.
+        velocity: u32,
+        /// Whose force it counts into.
+        body: u8,
+    },
     /// An open face.
     Open,
 }

@@ -29,7 +29,9 @@ impl Default for Rim {
 
 /// What the corrections of a block depend on.
 pub struct WallTask<'a, P> {
+    /// Equations.
     pub physics: &'a P,
+    /// Which block is where.
     pub layout: &'a Layout,
     /// ρ − 1 before the last collision, by block and cell.
     pub density: &'a [Vec<f64>],
@@ -49,9 +51,13 @@ pub struct Given {
 
 /// What the cells of a group have in common.
 pub struct Alike<'a> {
+    /// Cells of the group.
     pub count: usize,
+    /// Directions that lead into walls, one bit each.
     pub walls: u32,
+    /// Normal of the walls.
     pub normal: &'a [f64; 3],
+    /// Number of the fluid.
     pub fluid: u8,
 }
 

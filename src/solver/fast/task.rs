@@ -12,11 +12,15 @@ use crate::solver::run::Stopped;
 
 /// What all blocks of a pass share; everything here is only read.
 pub struct Task<'a, P, E> {
+    /// What is run.
     pub setup: &'a Setup,
+    /// Equations.
     pub physics: &'a P,
+    /// Which block is where.
     pub layout: &'a Layout,
     /// Where packs are gathered from.
     pub sources: &'a [Sources],
+    /// All blocks, by number.
     pub blocks: &'a [Block],
     /// Populations after the last collision, or before the first one.
     pub old: &'a [Aligned<E>],
@@ -24,6 +28,7 @@ pub struct Task<'a, P, E> {
     pub fresh: bool,
     /// Body force of this step.
     pub force: [f64; 3],
+    /// This step.
     pub step: u64,
     /// Wall velocities by number.
     pub velocities: &'a [[f64; 3]],
@@ -49,6 +54,7 @@ impl<'a, P, E: Element> Task<'a, P, E> {
 
 /// What a block owns in a pass.
 pub struct Own<'a, E> {
+    /// Number of the block.
     pub number: usize,
     /// Populations after this collision.
     pub new: &'a mut Aligned<E>,

@@ -1,8 +1,6 @@
 //! Spheres that slide and roll: on a floor, on a slope, in a trough.
 
-use super::support::{
-    G, RADIUS, mass, rest_on_floor, resting_overlap, run_until, setup, trough, wall, worst,
-};
+use super::support::{G, RADIUS, mass, rest_on_floor, resting_overlap, run_until, setup, trough, wall};
 use crate::claim::{
     Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
 };
