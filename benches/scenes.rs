@@ -2,8 +2,9 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
+use lahar::bench::Scale;
 use lahar::bench::backends;
-use lahar::bench::cases::{GROUPS, Scale};
+use lahar::bench::cases::GROUPS;
 
 /// Largest box, cells: the caches of most machines hold it, so that a change of arithmetic shows.
 const CELLS: usize = 250_000;

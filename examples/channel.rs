@@ -12,6 +12,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let computed = run.fields().velocity[cells / 2][0];
     // The wall stress is force × half the height; the plug moves at (wall stress − σ0)²/(2 μ force).
     let exact = (force * 0.5 * cells as f64 - sigma0).powi(2) / (2.0 * mu * force);
-    println!("speed of the plug: {computed:.6e}, exact {exact:.6e}, {:+.2} %", 100.0 * (computed / exact - 1.0));
+    println!(
+        "speed of the plug: {computed:.6e}, exact {exact:.6e}, {:+.2} %",
+        100.0 * (computed / exact - 1.0)
+    );
     Ok(())
 }

@@ -113,7 +113,9 @@ pub use plan::{Plan, PlanError};
 pub use rheology::{Law, Rheology, YieldTreatment};
 pub use scene::{Scene, SceneError};
 pub use setup::guard::{Runaway, StartError, Stopped};
-pub use setup::{BodyForce, Face, FlowPoint, FreeSurface, Precision, Setup, SolidMotion, Suspension, WallRule};
+pub use setup::{
+    BodyForce, Face, FlowPoint, FreeSurface, Precision, Setup, SolidMotion, Suspension, WallRule,
+};
 pub use solver::fast::Fast;
 pub use solver::plain::Plain;
 pub use solver::run::{Backend, Fields, Ledger, Load, Run, Totals};

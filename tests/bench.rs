@@ -4,7 +4,8 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use lahar::bench::BenchError;
-use lahar::bench::cases::{GROUPS, Scale};
+use lahar::bench::Scale;
+use lahar::bench::cases::GROUPS;
 use lahar::solver::choose::Best;
 use lahar::solver::run::Backend;
 

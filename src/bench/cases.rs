@@ -4,25 +4,8 @@ use super::flows::{
     Dam, bingham, channel, herschel_bulkley, newtonian, rigid, settling, shear_rate, twin_bingham, twin_dam,
     twin_herschel_bulkley, twin_rigid, vortices,
 };
+use super::scale::Scale;
 use crate::setup::{Precision, Setup};
-
-/// Full size, or about ten times fewer cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
-    /// As described.
-    Full,
-    /// About a tenth of the cells.
-    Quick,
-}
-
-impl Scale {
-    const fn pick(self, full: usize, quick: usize) -> usize {
-        match self {
-            Self::Full => full,
-            Self::Quick => quick,
-        }
-    }
-}
 
 /// One flow.
 #[derive(Clone, Copy)]

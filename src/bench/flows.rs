@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::cases::Scale;
+use super::scale::Scale;
 use crate::coupling::Suspension;
 use crate::dem::{self, Grain, Material, Materials, PairProperties, Period, V3};
 use crate::rheology::Law;

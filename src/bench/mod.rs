@@ -13,6 +13,7 @@ mod flows;
 pub mod grains;
 mod machine;
 mod measure;
+mod scale;
 mod statistics;
 mod table;
 mod yielded;
@@ -30,8 +31,9 @@ use crate::solver::choose::Best;
 use crate::solver::plain::Plain;
 use crate::solver::run::Backend;
 use bandwidth::{BYTES_PER_NUMBER, BYTES_PER_UPDATE, Speed};
-use cases::{GROUPS, Scale};
+use cases::GROUPS;
 use machine::Memory;
+pub use scale::Scale;
 
 /// Every backend, the plain one first.
 #[must_use]
