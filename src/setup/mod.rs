@@ -120,9 +120,25 @@ pub enum BodyForce {
     /// The same at all times.
     Constant([f64; 3]),
     /// `mean + amplitude · cos(frequency · t + phase)`, t in steps, frequency in radians per step.
-    Oscillating { mean: [f64; 3], amplitude: [f64; 3], frequency: f64, phase: f64 },
+    Oscillating {
+        /// What stays.
+        mean: [f64; 3],
+        /// What swings, at its largest.
+        amplitude: [f64; 3],
+        /// Radians per step.
+        frequency: f64,
+        /// At step 0, radians.
+        phase: f64,
+    },
     /// `before` until step `at`, `after` from that step on.
-    Stepped { before: [f64; 3], after: [f64; 3], at: u64 },
+    Stepped {
+        /// Until then.
+        before: [f64; 3],
+        /// From then on.
+        after: [f64; 3],
+        /// The first step with `after`.
+        at: u64,
+    },
 }
 
 /// One point of an initial flow, lattice units.

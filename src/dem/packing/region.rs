@@ -7,11 +7,30 @@ use crate::dem::{DemError, V3};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Region {
     /// Between two corners.
-    Box { low: V3, high: V3 },
+    Box {
+        /// Low corner, m.
+        low: V3,
+        /// High corner, m.
+        high: V3,
+    },
     /// A ball.
-    Sphere { centre: V3, radius: f64 },
+    Sphere {
+        /// Centre, m.
+        centre: V3,
+        /// Radius, m.
+        radius: f64,
+    },
     /// An upright cylinder about `axis` with its base centred at `base`.
-    Cylinder { base: V3, axis: V3, radius: f64, height: f64 },
+    Cylinder {
+        /// Centre of the base, m.
+        base: V3,
+        /// From the base upwards, any length but zero.
+        axis: V3,
+        /// Radius, m.
+        radius: f64,
+        /// Height along the axis, m.
+        height: f64,
+    },
 }
 
 impl Region {

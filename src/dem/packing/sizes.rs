@@ -9,10 +9,24 @@ pub enum Sizes {
     /// All equal, m.
     One(f64),
     /// Uniform by number between two radii, m.
-    Uniform { least: f64, largest: f64 },
+    Uniform {
+        /// Smallest radius, m.
+        least: f64,
+        /// Largest radius, m.
+        largest: f64,
+    },
     /// Log-normal by number: median radius (m), standard deviation of ln r; values outside the bounds are drawn
     /// again.
-    LogNormal { median: f64, deviation: f64, least: f64, largest: f64 },
+    LogNormal {
+        /// Median radius, m.
+        median: f64,
+        /// Standard deviation of ln r.
+        deviation: f64,
+        /// Smallest radius, m.
+        least: f64,
+        /// Largest radius, m.
+        largest: f64,
+    },
     /// Sieve curve: (diameter in m, share of the mass that passes, 0 … 1), ascending, from 0 to 1. Between two
     /// sieves the mass is uniform in ln d.
     Sieve(Vec<(f64, f64)>),

@@ -23,14 +23,46 @@ pub enum Side {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Surface {
     /// The half-space behind `point`; grains are where `normal` points to.
-    Plane { point: V3, normal: V3 },
+    Plane {
+        /// A point of it, m.
+        point: V3,
+        /// Towards the grains, unit length once checked.
+        normal: V3,
+    },
     /// A cylinder about `axis` through `point`; endless without `half_length`, else a capped body centred at
     /// `point` (for grains outside only).
-    Cylinder { point: V3, axis: V3, radius: f64, half_length: Option<f64>, side: Side },
+    Cylinder {
+        /// A point of the axis, m; the centre if it has ends.
+        point: V3,
+        /// Direction of the axis, unit length once checked.
+        axis: V3,
+        /// Radius, m.
+        radius: f64,
+        /// Half the distance of the ends, m; `None`: endless.
+        half_length: Option<f64>,
+        /// Where the grains are.
+        side: Side,
+    },
     /// A box with half edges `half` along the axes of `orientation`.
-    Box { centre: V3, half: V3, orientation: Orientation, side: Side },
+    Box {
+        /// Centre, m.
+        centre: V3,
+        /// Half edges, m.
+        half: V3,
+        /// Turns the box's own axes into those of the scene.
+        orientation: Orientation,
+        /// Where the grains are.
+        side: Side,
+    },
     /// A sphere.
-    Sphere { centre: V3, radius: f64, side: Side },
+    Sphere {
+        /// Centre, m.
+        centre: V3,
+        /// Radius, m.
+        radius: f64,
+        /// Where the grains are.
+        side: Side,
+    },
     /// Triangles, touched from either side.
     Mesh(Mesh),
 }
