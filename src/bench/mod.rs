@@ -24,7 +24,6 @@ pub use error::BenchError;
 pub use grains::GrainSpeed;
 pub use machine::Machine;
 pub use measure::{CaseSpeed, Ratio};
-pub use scale::Scale;
 pub use statistics::Spread;
 
 use crate::plan::available_memory;
@@ -34,6 +33,7 @@ use crate::solver::run::Backend;
 use bandwidth::{BYTES_PER_NUMBER, BYTES_PER_UPDATE, Speed};
 use cases::GROUPS;
 use machine::Memory;
+pub use scale::Scale;
 
 /// Every backend, the plain one first.
 #[must_use]

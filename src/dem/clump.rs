@@ -1,19 +1,25 @@
 //! Rigid clumps of spheres \[D4\].
 
 use super::rotation::principal;
-use super::union_moments::{Moments, NODES, sum_of_spheres, union};
-use super::{DemError, Orientation, Sphere, V3};
+use super::sphere::Sphere;
+use super::union_moments::{Moments, NODES, union};
+use super::{DemError, Orientation, V3};
 use nalgebra::{Matrix3, Rotation3};
-use serde::{Deserialize, Serialize};
 
-/// How mass, centre and inertia of overlapping members are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum InertiaRule {
-    /// Of the union of the members.
-    #[default]
-    Union,
-    /// As if members did not overlap: wrong on purpose, for tests.
-    SumOfSpheres,
+/// Whether members can make up a clump.
+fn check(name: &str, spheres: &[Sphere]) -> Result<(), DemError> {
+    if spheres.is_empty() {
+        return Err(DemError::EmptyClump { name: name.into() });
+    }
+    for (member, s) in spheres.iter().enumerate() {
+        if !(s.radius > 0.0 && s.radius.is_finite()) {
+            return Err(DemError::MemberRadius { name: name.into(), member, radius: s.radius });
+        }
+        if !s.centre.iter().all(|x| x.is_finite()) {
+            return Err(DemError::MemberCentre { name: name.into(), member });
+        }
+    }
+    Ok(())
 }
 
 /// A rigid clump in its own frame: origin at the centre of mass, axes along the principal axes.
@@ -36,35 +42,24 @@ pub struct Clump {
 }
 
 impl Clump {
-    /// A clump from spheres in any frame.
+    /// A clump from spheres in any frame, of the same density everywhere in their union.
     ///
     /// # Errors
     /// No member, a radius that is not above zero, a centre that is not finite.
     pub fn new(name: &str, spheres: &[Sphere]) -> Result<Self, DemError> {
-        Self::with_rule(name, spheres, InertiaRule::Union)
+        check(name, spheres)?;
+        Self::with_moments(name, spheres, &union(spheres, NODES))
     }
 
-    /// Like [`Clump::new`] with a chosen inertia rule.
+    /// A clump whose volume, centre and moments of inertia are known otherwise.
     ///
+    /// # Arguments
+    /// `moments`: of density one, in the frame of the spheres.
     /// # Errors
-    /// As [`Clump::new`].
-    pub fn with_rule(name: &str, spheres: &[Sphere], rule: InertiaRule) -> Result<Self, DemError> {
-        if spheres.is_empty() {
-            return Err(DemError::EmptyClump { name: name.into() });
-        }
-        for (member, s) in spheres.iter().enumerate() {
-            if !(s.radius > 0.0 && s.radius.is_finite()) {
-                return Err(DemError::MemberRadius { name: name.into(), member, radius: s.radius });
-            }
-            if !s.centre.iter().all(|x| x.is_finite()) {
-                return Err(DemError::MemberCentre { name: name.into(), member });
-            }
-        }
-        let moments = match rule {
-            InertiaRule::Union => union(spheres, NODES),
-            InertiaRule::SumOfSpheres => sum_of_spheres(spheres),
-        };
-        let (inertia, axes) = principal(&inertia_tensor(&moments));
+    /// No member, a radius that is not above zero, a centre that is not finite.
+    pub fn with_moments(name: &str, spheres: &[Sphere], moments: &Moments) -> Result<Self, DemError> {
+        check(name, spheres)?;
+        let (inertia, axes) = principal(&inertia_tensor(moments));
         let frame = Orientation::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
         let members: Vec<Sphere> = spheres
             .iter()
@@ -90,7 +85,7 @@ impl Clump {
     /// # Arguments
     /// * `radius` — of the members, m; `edge` — distance of their centres, m (2 × radius: they touch).
     /// # Errors
-    /// As [`Clump::new`].
+    /// No member, a radius that is not above zero, a centre that is not finite.
     pub fn tetrahedron(radius: f64, edge: f64) -> Result<Self, DemError> {
         let a = edge / 8f64.sqrt();
         let corner = |x: f64, y: f64, z: f64| Sphere { centre: V3::new(x * a, y * a, z * a), radius };

@@ -44,7 +44,7 @@ mod tests;
 pub use bodies::Bodies;
 pub use build::shortest_contact;
 pub use checkpoint::Checkpoint;
-pub use clump::{Clump, InertiaRule};
+pub use clump::Clump;
 pub use contact::{ContactEquations, StandardContact, restitution};
 pub use energy::{Energies, Ledger};
 pub use error::{DemError, Touching};

@@ -7,7 +7,8 @@
 //! the half-integer powers at the ends of a piece into smooth functions. The error therefore falls faster than
 //! any power of the number of nodes; [`NODES`] leaves round-off only.
 
-use super::{Sphere, V3};
+use super::V3;
+use super::sphere::Sphere;
 
 /// Gauss–Legendre nodes per piece used by clumps.
 pub const NODES: usize = 40;

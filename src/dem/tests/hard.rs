@@ -35,15 +35,8 @@ fn guard_stops_nan_and_fast_spin() {
 }
 
 #[test]
-fn bad_input_is_refused() {
-    let good = || head_on(setup(soft(), elastic()), 5e-3, 1.0);
+fn bad_materials_are_refused() {
     let fails = |s: Setup| Dem::new(&s).map(|_| ()).unwrap_err();
-    let mut s = good();
-    s.grains[1].position = s.grains[0].position + V3::x() * 9e-3;
-    assert!(matches!(fails(s), DemError::StartOverlap { first: 0, second: 1, .. }));
-    let mut s = good();
-    s.walls = vec![floor()];
-    assert!(matches!(fails(s), DemError::StartOverlapWall { .. }));
     for (e, nu) in [(0.0, 0.2), (-1.0, 0.2), (f64::NAN, 0.2)] {
         let s = setup(Material { young_pa: e, poisson: nu, ..soft() }, elastic());
         assert!(matches!(fails(s), DemError::Young { .. }));
@@ -56,6 +49,27 @@ fn bad_input_is_refused() {
     }
     let heavy = setup(Material { density_kg_m3: 0.0, ..soft() }, elastic());
     assert!(matches!(fails(heavy), DemError::Density { .. }));
+    for pair in [
+        PairProperties { friction: -0.1, ..elastic() },
+        PairProperties { normal: NormalLaw::Tsuji { restitution: 0.0 }, ..elastic() },
+        PairProperties { normal: NormalLaw::Tsuji { restitution: 1.1 }, ..elastic() },
+        PairProperties { normal: NormalLaw::ViscoElastic { time_s: -1.0 }, ..elastic() },
+    ] {
+        assert!(matches!(fails(setup(soft(), pair)), DemError::PairProperty { .. }));
+    }
+    assert_eq!(fails(Setup::new(Materials::default())), DemError::NoMaterial);
+}
+
+#[test]
+fn bad_settings_and_places_are_refused() {
+    let good = || head_on(setup(soft(), elastic()), 5e-3, 1.0);
+    let fails = |s: Setup| Dem::new(&s).map(|_| ()).unwrap_err();
+    let mut s = good();
+    s.grains[1].position = s.grains[0].position + V3::x() * 9e-3;
+    assert!(matches!(fails(s), DemError::StartOverlap { first: 0, second: 1, .. }));
+    let mut s = good();
+    s.walls = vec![floor()];
+    assert!(matches!(fails(s), DemError::StartOverlapWall { .. }));
     let mut s = good();
     s.time_step_s = Some(1e-3);
     assert!(matches!(fails(s), DemError::TimeStep { .. }));
@@ -83,15 +97,6 @@ fn bad_input_is_refused() {
     let mut s = good();
     s.walls = vec![Wall::fixed("w", Surface::Plane { point: V3::zeros(), normal: V3::zeros() }, 0)];
     assert!(matches!(fails(s), DemError::Wall { .. }));
-    for pair in [
-        PairProperties { friction: -0.1, ..elastic() },
-        PairProperties { normal: NormalLaw::Tsuji { restitution: 0.0 }, ..elastic() },
-        PairProperties { normal: NormalLaw::Tsuji { restitution: 1.1 }, ..elastic() },
-        PairProperties { normal: NormalLaw::ViscoElastic { time_s: -1.0 }, ..elastic() },
-    ] {
-        assert!(matches!(fails(setup(soft(), pair)), DemError::PairProperty { .. }));
-    }
-    assert_eq!(fails(Setup::new(Materials::default())), DemError::NoMaterial);
     // Nothing in it: no time step can be suggested, but one can be given.
     let mut empty = setup(soft(), elastic());
     assert!(matches!(fails(empty.clone()), DemError::Setting { .. }));

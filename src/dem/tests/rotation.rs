@@ -98,7 +98,8 @@ fn limit_clump_of_one_sphere() {
 fn mutant_caught_sum_of_spheres() {
     let s = |x: f64| Sphere { centre: V3::x() * x, radius: 1.0 };
     let right = Clump::new("two", &[s(-0.5), s(0.5)]).unwrap();
-    let wrong = Clump::with_rule("two", &[s(-0.5), s(0.5)], InertiaRule::SumOfSpheres).unwrap();
+    let sum = union_moments::sum_of_spheres(&[s(-0.5), s(0.5)]);
+    let wrong = Clump::with_moments("two", &[s(-0.5), s(0.5)], &sum).unwrap();
     // V = 4π/3 · 2 − lens, lens of two unit spheres at distance 1: 5π/12.
     let exact = std::f64::consts::PI * (8.0 / 3.0 - 5.0 / 12.0);
     assert!((right.volume / exact - 1.0).abs() < 1e-12);

@@ -6,7 +6,7 @@ use crate::claim::{
 };
 use crate::exact::grains::two_spheres::{Axial, union};
 use lahar::dem::union_moments::union as quadrature;
-use lahar::dem::{Clump, InertiaRule, Sphere, V3};
+use lahar::dem::{Clump, DemError, Sphere, V3};
 
 /// Line of centres, oblique to everything.
 fn axis() -> V3 {
@@ -20,12 +20,15 @@ fn pair(a: f64, b: f64, distance: f64) -> [Sphere; 2] {
 }
 
 /// Worst relative error of volume, centre (over the distance) and the moments of inertia of a clump of two.
-pub(super) fn two(distance: f64, rule: InertiaRule) -> Result<Sample, VerifyError> {
+pub(super) fn two(
+    distance: f64,
+    clump: impl Fn(&[Sphere]) -> Result<Clump, DemError>,
+) -> Result<Sample, VerifyError> {
     let mut errors = Vec::new();
     let mut first = (0.0, 0.0);
     for (a, b) in [(1.0, 1.0), (1.0, 0.7)] {
         let spheres = pair(a, b, distance);
-        let (c, exact) = (Clump::with_rule("two", &spheres, rule)?, union(a, b, distance));
+        let (c, exact) = (clump(&spheres)?, union(a, b, distance));
         let (least, others) = (c.inertia.x, [c.inertia.y, c.inertia.z]);
         errors.extend([
             c.volume / exact.volume - 1.0,
@@ -68,7 +71,7 @@ pub const TWO: Claim = Claim {
                   and of the Jacobi rotations",
     },
     kind: Kind::Verification,
-    measure: |_, distance| two(distance, InertiaRule::Union),
+    measure: |_, distance| two(distance, |s| Clump::new("two", s)),
 };
 
 /// Touching and apart.
@@ -92,7 +95,7 @@ pub const APART: Claim = Claim {
     },
     kind: Kind::Verification,
     measure: |_, distance| {
-        let mut sample = two(distance, InertiaRule::Union)?;
+        let mut sample = two(distance, |s| Clump::new("two", s))?;
         let c = Clump::tetrahedron(1.0, distance)?;
         let m = 4.0 / 3.0 * std::f64::consts::PI;
         let exact = 4.0 * m * (0.4 + 0.25 * distance * distance);

@@ -2,7 +2,8 @@
 
 use super::{books, contact, impact, inertia, rolling};
 use crate::mutant::{Mutant, Subject};
-use lahar::dem::{ContactEquations, InertiaRule, Integrator, V3};
+use lahar::dem::union_moments::sum_of_spheres;
+use lahar::dem::{Clump, ContactEquations, Integrator, V3};
 
 /// The tangential spring is left where it was when the contact turns.
 #[derive(Debug, Clone, Copy)]
@@ -81,7 +82,9 @@ pub const SUM_OF_SPHERES: Mutant = Mutant {
     description: "Mass, centre and inertia of a clump are sums over its members, overlaps counted twice.",
     caught_by: "clump-two-spheres",
     rung: None,
-    subject: Subject::Measure(|_, distance| inertia::two(distance, InertiaRule::SumOfSpheres)),
+    subject: Subject::Measure(|_, distance| {
+        inertia::two(distance, |s| Clump::with_moments("two", s, &sum_of_spheres(s)))
+    }),
 };
 
 /// Reversed product.
