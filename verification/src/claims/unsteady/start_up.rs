@@ -40,6 +40,14 @@ impl Start {
         }
     }
 
+    /// A sudden start converges at first order only, as theory predicts.
+    const fn kind(self) -> Kind {
+        match self {
+            Self::Sudden => Kind::PredictedFailure,
+            Self::Smooth => Kind::Verification,
+        }
+    }
+
     fn force(self, t: f64) -> f64 {
         match self {
             Self::Sudden => 1.0,
@@ -215,7 +223,6 @@ const fn claim(
     order: Option<OrderBand>,
     start: Start,
     tolerance: Tolerance,
-    kind: Kind,
     measure: fn(&dyn Backend, f64) -> Result<Sample, VerifyError>,
 ) -> Claim {
     Claim {
@@ -231,7 +238,7 @@ const fn claim(
         ladder,
         order,
         tolerance,
-        kind,
+        kind: start.kind(),
         measure,
     }
 }
@@ -268,7 +275,6 @@ pub const BINGHAM_SUDDEN_CELLS: Claim = claim(
     FIRST,
     Start::Sudden,
     Tolerance { value: 0.043, at: Rung::Last, basis: Basis::Derived, because: SUDDEN_BOUND },
-    Kind::PredictedFailure,
     |backend, x| in_cells(backend, Fluid::Bingham, Start::Sudden, x),
 );
 /// Bingham, sudden start, order in Δt.
@@ -279,7 +285,6 @@ pub const BINGHAM_SUDDEN_TIME: Claim = claim(
     FIRST,
     Start::Sudden,
     Tolerance { value: 0.054, at: Rung::Last, basis: Basis::Derived, because: SUDDEN_BOUND },
-    Kind::PredictedFailure,
     |backend, x| in_time(backend, Fluid::Bingham, Start::Sudden, x),
 );
 /// Herschel-Bulkley, sudden start, refinement at fixed τ.
@@ -290,7 +295,6 @@ pub const HERSCHEL_BULKLEY_SUDDEN_CELLS: Claim = claim(
     FIRST,
     Start::Sudden,
     Tolerance { value: 0.043, at: Rung::Last, basis: Basis::Derived, because: SUDDEN_BOUND },
-    Kind::PredictedFailure,
     |backend, x| in_cells(backend, Fluid::HerschelBulkley, Start::Sudden, x),
 );
 /// Herschel-Bulkley, sudden start, order in Δt.
@@ -301,7 +305,6 @@ pub const HERSCHEL_BULKLEY_SUDDEN_TIME: Claim = claim(
     FIRST,
     Start::Sudden,
     Tolerance { value: 0.054, at: Rung::Last, basis: Basis::Derived, because: SUDDEN_BOUND },
-    Kind::PredictedFailure,
     |backend, x| in_time(backend, Fluid::HerschelBulkley, Start::Sudden, x),
 );
 /// Bingham, smooth start, refinement at fixed τ.
@@ -312,7 +315,6 @@ pub const BINGHAM_SMOOTH_CELLS: Claim = claim(
     SECOND,
     Start::Smooth,
     Tolerance { value: 2.5e-3, at: Rung::Last, basis: Basis::AfterSeeing, because: SMOOTH_BOUND },
-    Kind::Verification,
     |backend, x| in_cells(backend, Fluid::Bingham, Start::Smooth, x),
 );
 /// Bingham, smooth start, order in Δt.
@@ -323,7 +325,6 @@ pub const BINGHAM_SMOOTH_TIME: Claim = claim(
     SECOND,
     Start::Smooth,
     Tolerance { value: 2.5e-3, at: Rung::Last, basis: Basis::AfterSeeing, because: SMOOTH_BOUND },
-    Kind::Verification,
     |backend, x| in_time(backend, Fluid::Bingham, Start::Smooth, x),
 );
 /// Herschel-Bulkley, smooth start, refinement at fixed τ.
@@ -334,7 +335,6 @@ pub const HERSCHEL_BULKLEY_SMOOTH_CELLS: Claim = claim(
     NEARLY_SECOND,
     Start::Smooth,
     Tolerance { value: 5.6e-3, at: Rung::Last, basis: Basis::AfterSeeing, because: SMOOTH_BOUND_HB },
-    Kind::Verification,
     |backend, x| in_cells(backend, Fluid::HerschelBulkley, Start::Smooth, x),
 );
 /// Herschel-Bulkley, smooth start, order in Δt.
@@ -345,7 +345,6 @@ pub const HERSCHEL_BULKLEY_SMOOTH_TIME: Claim = claim(
     NEARLY_SECOND,
     Start::Smooth,
     Tolerance { value: 4.6e-3, at: Rung::Last, basis: Basis::AfterSeeing, because: SMOOTH_BOUND_HB },
-    Kind::Verification,
     |backend, x| in_time(backend, Fluid::HerschelBulkley, Start::Smooth, x),
 );
 #[cfg(test)]
