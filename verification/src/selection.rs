@@ -75,7 +75,7 @@ impl Selection {
         if found.claims.is_empty() { Err(SelectionError::Tag { tag: tag.to_owned() }) } else { Ok(found) }
     }
 
-    /// The same claims on their full ladders: minutes to hours where the short ones take seconds.
+    /// These claims on their full ladders: minutes to hours where the short ones take seconds.
     #[must_use]
     pub fn full(self) -> Self {
         Self { depth: Depth::Full, ..self }

@@ -1,4 +1,4 @@
-//! The same heaps by lubrication theory, and their rest shapes.
+//! Heaps that slump by lubrication theory, and their rest shapes.
 
 use super::scene::{Heap, View};
 use crate::claim::VerifyError;

@@ -40,7 +40,7 @@ impl Start {
         }
     }
 
-    /// Second order is lost where elastic waves run: that is predicted.
+    /// A sudden start converges at first order only, as theory predicts.
     const fn kind(self) -> Kind {
         match self {
             Self::Sudden => Kind::PredictedFailure,
