@@ -5,7 +5,7 @@
 use lahar::scene::{Boundaries, Boundary, Domain, End, FillLevel, Fluid, Gravity, Rheology};
 use lahar::{Axis, Backend, Fast, Plan, Scene};
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (density, sigma0, mu, depth, slope) = (1500.0, 40.0, 50.0, 0.1, 20.0_f64);
     let mud = Rheology::Bingham { yield_stress_pa: sigma0, plastic_viscosity_pa_s: mu };
     let domain = Domain { size_m: [0.005, 0.005, 0.15], spacing_m: 0.005, boundaries: Boundaries::default() };
@@ -31,5 +31,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let exact = excess * excess / (2.0 * mu * force);
     let error = 100.0 * (computed / exact - 1.0);
     println!("speed of the surface: {computed:.4} m/s, exact {exact:.4} m/s, {error:+.2} %");
-    Ok(())
+    // What is left of the start after 1.5 s, e^(−π²νt/4h²) of the flow, is below 1e-5; the rest is the scheme's.
+    if error.abs() < 1.0 { Ok(()) } else { Err("the sheet has another speed".into()) }
 }

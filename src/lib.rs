@@ -108,13 +108,15 @@ pub use collision::CollisionChoice;
 pub use fingerprint::Fingerprint;
 pub use geometry::{Axis, Shape};
 pub use lane::Lane;
-pub use plan::{Plan, PlanError};
+pub use plan::{Plan, PlanError, Planned};
 pub use rheology::{Law, Rheology, YieldTreatment};
-pub use scene::{Scene, SceneError};
+pub use run::{Options as RunOptions, RunError, run as run_scene};
+pub use scene::{AnyScene, Scene, SceneError};
 pub use setup::guard::{Runaway, StartError, Stopped};
 pub use setup::{
     BodyForce, Face, FlowPoint, FreeSurface, Precision, Setup, SolidMotion, Suspension, WallRule,
 };
+pub use solver::choose::Best;
 pub use solver::fast::Fast;
 pub use solver::plain::Plain;
 pub use solver::run::{Backend, Fields, Ledger, Load, Run, Totals};

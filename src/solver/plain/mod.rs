@@ -13,9 +13,10 @@ mod run;
 mod surface;
 
 use crate::collision::{Bgk, CentralMoment, CollisionChoice};
+use crate::rheology::Rheology;
 use crate::setup::{Precision, Setup};
 use crate::solver::compiled::{Compiled, with_own_loop, with_shared_loop};
-use crate::solver::physics::Physics;
+use crate::solver::physics::{Physics, Standard};
 use crate::solver::run::{Backend, Run, StartError};
 
 pub use run::PlainRun;
@@ -42,6 +43,20 @@ impl Backend for Plain {
             CollisionChoice::CentralMoment(odd) => with_own_loop(setup, CentralMoment { odd }, Start(setup)),
             CollisionChoice::Trt(_) | CollisionChoice::Regularised => with_shared_loop(setup, Start(setup)),
         }
+    }
+}
+
+impl Plain {
+    /// Starts a run of one fluid whose law is not among those of [`crate::rheology::Law`].
+    ///
+    /// # Arguments
+    /// `setup`: everything else; its own fluid only decides what the initial populations start from.
+    /// `law`: one that is monotone, in lattice units.
+    /// # Errors
+    /// As [`Backend::start`].
+    pub fn start_with<R: Rheology>(&self, setup: &Setup, law: R) -> Result<Box<dyn Run>, StartError> {
+        let physics = Standard { laws: vec![law], treatment: setup.yielding, collision: setup.collision };
+        Ok(Box::new(PlainRun::start(setup, physics)?))
     }
 }
 
