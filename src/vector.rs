@@ -43,7 +43,7 @@ pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 /// # Arguments
 /// `velocity`: u_p of the body's centre. `spin`: ω, radians per unit of time. `arm`: r, the point less the centre.
 /// # Source
-/// 004 Eq 3.38; ERRATA 18 (order of the product).
+/// 004 Eq 3.38; docs/errata.md 18 (order of the product).
 /// # Verified by
 /// Claims `taylor-couette`, `sphere-spin-in-shear`.
 #[inline]

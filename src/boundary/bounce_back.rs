@@ -15,7 +15,7 @@ pub use crate::vector::surface_velocity;
 /// # Exactness
 /// + − × only; bit-stable.
 /// # Source
-/// 004 Eqs 3.36–3.37; ERRATA 14, 15 (factor 6; population returns to the cell it left).
+/// 004 Eqs 3.36–3.37; docs/errata.md 14, 15 (factor 6; population returns to the cell it left).
 /// # Verified by
 /// Claims `couette-newtonian`, `poiseuille-newtonian-bgk-slip`.
 #[inline(always)]

@@ -8,7 +8,7 @@ use crate::lattice::{CS2, Q, W};
 /// f_t / (8 dσ/dγ̇) = |u″|/8: what the curvature of the velocity profile adds over the half cell
 /// between node and wall.
 ///
-/// With the apparent viscosity in place of dσ/dγ̇ (as in the design) the wall node of a Bingham or
+/// With the apparent viscosity in place of dσ/dγ̇ (as the method says) the wall node of a Bingham or
 /// Herschel-Bulkley channel is off by up to 0.064 F/μ cells².
 ///
 /// # Arguments
@@ -16,7 +16,7 @@ use crate::lattice::{CS2, Q, W};
 /// # Returns
 /// The velocity to add to u_w in \[B1\].
 /// # Source
-/// Design \[B3\], second term; dσ/dγ̇ = ρ(τ⁺ − ½)/3 for a Newtonian fluid.
+/// docs/method.md \[B3\], second term; dσ/dγ̇ = ρ(τ⁺ − ½)/3 for a Newtonian fluid.
 /// # Verified by
 /// Claims `poiseuille-newtonian-b3`, `poiseuille-wall-node-error`.
 #[inline(always)]
@@ -37,7 +37,7 @@ pub fn curvature_velocity<L: Lane>(tangential: &[L; 3], tangent_fluidity: L) -> 
 /// # Arguments
 /// `velocity`: see [`curvature_velocity`]. `gamma_dot`: shear rate of the cell.
 /// # Source
-/// Design \[B3\], for flows with a free surface.
+/// docs/method.md \[B3\], for flows with a free surface.
 /// # Verified by
 /// Test `limit_of_curvature`; claim `thesis-run-c` (without it that run blows up within 130 steps).
 #[inline(always)]
@@ -64,7 +64,7 @@ pub fn limited_curvature<L: Lane>(velocity: &[L; 3], gamma_dot: L) -> [L; 3] {
 /// # Arguments
 /// `omega`, `odd_omega`: the cell's ω⁺ and ω⁻; ω⁺ = 0 (rigid) gives 0.
 /// # Source
-/// Design \[B3\], extended to unsteady flow.
+/// docs/method.md \[B3\], extended to unsteady flow.
 /// # Verified by
 /// Claims `couette-start-up`, `poiseuille-newtonian-b3`.
 #[inline(always)]
@@ -80,7 +80,7 @@ pub fn local_curvature<L: Lane>(omega: L, odd_omega: L) -> L {
 ///
 /// That is (2 − ω⁻) d_i + s_i for a straight profile, d the odd departure
 /// ([`crate::collision::Collision::odd_departure`]), s a source added after collision \[K6\]. For a
-/// lattice-aligned wall the sum over the links is the slip 2(τ⁻ − ½) f_t/ρ of the design, and the creep
+/// lattice-aligned wall the sum over the links is the slip 2(τ⁻ − ½) f_t/ρ of the method, and the creep
 /// 2θF/ρ of a rigid cell. Taken link by link it holds for walls of any orientation and for moving
 /// walls, and needs no wall normal and no pressure gradient. The mean is removed so that no mass passes
 /// the wall.
@@ -92,7 +92,7 @@ pub fn local_curvature<L: Lane>(omega: L, odd_omega: L) -> L {
 /// # Exactness
 /// Mirror-exact.
 /// # Source
-/// Design \[B3\], first term, derived link by link from f_i(x + c_i, t + 1) = f_i*(x, t) at steady state.
+/// docs/method.md \[B3\], first term, derived link by link from f_i(x + c_i, t + 1) = f_i*(x, t) at steady state.
 /// # Verified by
 /// Claims `poiseuille-newtonian-b3`, `resting-layer-creep`.
 #[inline(always)]
@@ -119,7 +119,7 @@ pub fn link_correction<L: Lane>(excess: &[L; Q], is_wall: impl Fn(usize) -> bool
 /// v − (v·n) n
 ///
 /// # Source
-/// Design \[B3\].
+/// docs/method.md \[B3\].
 /// # Verified by
 /// Claim `poiseuille-newtonian-b3`.
 #[inline(always)]
@@ -139,7 +139,7 @@ pub fn tangential<L: Lane>(v: &[L; 3], normal: &[f64; 3]) -> [L; 3] {
 /// zero where both are.
 ///
 /// # Source
-/// Design \[B3\], \[K6\]: p = c_s² ρ.
+/// docs/method.md \[B3\], \[K6\]: p = c_s² ρ.
 /// # Verified by
 /// Claim `resting-layer-creep`.
 #[must_use]
@@ -164,7 +164,7 @@ pub fn pressure_slope(low: Option<f64>, here: f64, high: Option<f64>) -> f64 {
 /// # Returns
 /// Additions to the six third moments, order of [`crate::lattice::moments::THIRD`].
 /// # Source
-/// Design \[K6\].
+/// docs/method.md \[K6\].
 /// # Verified by
 /// Claim `resting-layer-creep`.
 #[inline(always)]

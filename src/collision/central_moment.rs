@@ -18,7 +18,7 @@ impl Collision for CentralMoment {
     /// second ones induce in the co-moving frame, fourth moments follow.
     ///
     /// # Source
-    /// Design \[K3\].
+    /// docs/method.md \[K3\].
     /// # Verified by
     /// Claims `poiseuille-newtonian-magic`, `poiseuille-bingham`, `central-moment-galilean`.
     #[inline(always)]
@@ -53,7 +53,7 @@ impl Collision for CentralMoment {
 /// P = (1 − ω⁺) dev Q: the trace is relaxed at rate 1.
 ///
 /// # Source
-/// Design \[K3\].
+/// docs/method.md \[K3\].
 /// # Verified by
 /// Claim `sound-wave-damping`.
 #[inline(always)]
@@ -69,7 +69,7 @@ pub fn relaxed_stress<L: Lane>(m: &Moments<L>, omega: L) -> [L; 6] {
 /// Third moments in Hermite form, a = m_aab − m_b/3, of the pre-collision populations.
 ///
 /// # Source
-/// Design \[K3\].
+/// docs/method.md \[K3\].
 /// # Verified by
 /// Property `inverse_reproduces_moments`.
 #[inline(always)]
@@ -85,7 +85,7 @@ pub fn third_hermite<L: Lane>(h: &[L; Q]) -> [L; 6] {
 /// e = ρ u_a² u_b: third Hermite moment of the equilibrium.
 ///
 /// # Source
-/// Design \[K3\].
+/// docs/method.md \[K3\].
 /// # Verified by
 /// Claim `central-moment-galilean`.
 #[inline(always)]
@@ -97,7 +97,7 @@ pub fn third_equilibrium<L: Lane>(m: &Moments<L>, k: usize) -> L {
 /// s = 2 u_a u_b F_a + u_a² F_b: third Hermite moment of the force source.
 ///
 /// # Source
-/// Design \[K3\].
+/// docs/method.md \[K3\].
 /// # Verified by
 /// Claim `central-moment-galilean`.
 #[inline(always)]
@@ -109,7 +109,7 @@ pub fn third_force<L: Lane>(m: &Moments<L>, k: usize) -> L {
 /// 2 u_a T_ab + u_b T_aa: what a second-order tensor at rest in the co-moving frame induces.
 ///
 /// # Source
-/// Design \[K3\] (A0 with T = Q, A1 with T = P).
+/// docs/method.md \[K3\] (A0 with T = Q, A1 with T = P).
 /// # Verified by
 /// Claim `central-moment-galilean`.
 #[inline(always)]
@@ -121,7 +121,7 @@ pub fn induced<L: Lane>(u: &[L; 3], tensor: &[L; 6], k: usize) -> L {
 /// A − A0, with A = a − e + ½ s: the part of a third moment that is not induced by the stress.
 ///
 /// # Source
-/// Design \[K3\].
+/// docs/method.md \[K3\].
 /// # Verified by
 /// Claims `poiseuille-newtonian-magic`, `central-moment-galilean`.
 #[inline(always)]
@@ -133,7 +133,7 @@ pub fn third_departure<L: Lane>(m: &Moments<L>, a: L, k: usize) -> L {
 /// a* = e + A1 + (1 − ω⁻)(A − A0) + ½ s.
 ///
 /// # Source
-/// Design \[K3\].
+/// docs/method.md \[K3\].
 /// # Verified by
 /// Claims `poiseuille-newtonian-magic`, `central-moment-galilean`.
 #[inline(always)]
@@ -151,7 +151,7 @@ pub fn third_post<L: Lane>(m: &Moments<L>, a: &[L; 6], p: &[L; 6], keep_odd: L) 
 /// The departures of all third moments as populations.
 ///
 /// # Source
-/// Design \[K3\], \[B3\].
+/// docs/method.md \[K3\], \[B3\].
 /// # Verified by
 /// Claim `poiseuille-newtonian-b3`; property `odd_departure_is_what_relaxes`.
 #[inline(always)]
@@ -169,7 +169,7 @@ pub fn co_moving_odd_departure<L: Lane>(h: &[L; Q], m: &Moments<L>) -> [L; Q] {
 /// the fourth moments they imply.
 ///
 /// # Source
-/// Design \[K3\].
+/// docs/method.md \[K3\].
 /// # Verified by
 /// Property `conserves_mass_and_momentum`; claim `poiseuille-newtonian-magic`.
 #[inline(always)]

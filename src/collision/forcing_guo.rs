@@ -8,7 +8,7 @@ use crate::lattice::{Q, W};
 /// w_i [9 (c·u)(c·F) − 3 u·F]: the even part, before the factor 1 − ω⁺/2.
 ///
 /// # Source
-/// 004 Eq 3.28 (ERRATA 75: local τ in the factor).
+/// 004 Eq 3.28 (docs/errata.md 75: local τ in the factor).
 /// # Verified by
 /// Claim `shear-rate-uniform-acceleration`.
 #[inline(always)]

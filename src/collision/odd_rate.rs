@@ -47,7 +47,7 @@ impl OddRate {
     /// τ⁻ − ½ that Λ asks for, before the floor \[K5\].
     ///
     /// # Source
-    /// Design \[K3\], \[K5\]; ½ + this is the τ_w of \[K6\].
+    /// docs/method.md \[K3\], \[K5\]; ½ + this is the τ_w of \[K6\].
     /// # Verified by
     /// Claim `poiseuille-newtonian-magic`; test `limit_unyielded_cell_takes_the_floor`.
     #[inline(always)]
@@ -65,7 +65,7 @@ impl OddRate {
     /// ω⁻ = 1 / (½ + max(excess, θ)).
     ///
     /// # Source
-    /// Design \[K2\], \[K3\].
+    /// docs/method.md \[K2\], \[K3\].
     /// # Verified by
     /// Claim `poiseuille-newtonian-magic`.
     #[inline(always)]

@@ -18,7 +18,7 @@ impl Collision for Regularised {
     /// a* = e + A1 + ½ s: the recursion of the third Hermite moment from the relaxed stress.
     ///
     /// # Source
-    /// Design \[K4\].
+    /// docs/method.md \[K4\].
     /// # Verified by
     /// Claim `shear-wave-order-regularised`.
     #[inline(always)]

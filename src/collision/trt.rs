@@ -19,7 +19,7 @@ impl Collision for Trt {
     /// f* = f − ω⁺(f⁺ − f_eq⁺) − ω⁻(f⁻ − f_eq⁻) + (1 − ω⁺/2) S⁺ + (1 − ω⁻/2) S⁻
     ///
     /// # Source
-    /// Design \[K2\].
+    /// docs/method.md \[K2\].
     /// # Verified by
     /// Claims `shear-wave-axis-trt`, `poiseuille-newtonian-magic`.
     #[inline(always)]
@@ -65,7 +65,7 @@ impl Collision for Trt {
 /// ½[(f − f_eq)_i − (f − f_eq)_ī] + ½ S_i⁻: odd departure of the raw populations.
 ///
 /// # Source
-/// Design \[K2\], \[B3\].
+/// docs/method.md \[K2\], \[B3\].
 /// # Verified by
 /// Claim `poiseuille-newtonian-b3`; property `odd_departure_is_what_relaxes`.
 #[inline(always)]

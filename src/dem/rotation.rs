@@ -71,7 +71,7 @@ pub fn turn(q: &Orientation, omega: &V3, dt: f64) -> Orientation {
 /// # Returns
 /// The new orientation, or `None` if ω Δt is too large for the solve (about 1).
 /// # Source
-/// DESIGN \[D4\]; 000 Eq 3 corrected (ERRATA 33); Austin, Krishnaprasad & Wang 1993, doi:10.1006/jcph.1993.1128.
+/// docs/method.md \[D4\]; 000 Eq 3 corrected (docs/errata.md 33); Austin, Krishnaprasad & Wang 1993, doi:10.1006/jcph.1993.1128.
 /// # Verified by
 /// `conserves_free_rotation`, `exact_flip_period`.
 #[inline]

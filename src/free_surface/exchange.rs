@@ -13,7 +13,7 @@ use crate::lattice::{W, opposite};
 /// # Arguments
 /// `neighbour`: kind of the cell at the other end. `fill`, `neighbour_fill`: φ of the two cells, 0 to 1.
 /// # Source
-/// 000 Eq 12, 001 Eq 11, 004 Eq 3.31; ERRATA 20 (fill, not mass), 21 (sum, not difference).
+/// 000 Eq 12, 001 Eq 11, 004 Eq 3.31; docs/errata.md 20 (fill, not mass), 21 (sum, not difference).
 /// # Verified by
 /// Claims `surface-pattern-carried`, `dam-break-mass`; mutants `exchange-of-masses`,
 /// `exchange-of-differences`.
@@ -51,7 +51,7 @@ pub fn share_with<L: Lane>(fill: L, neighbour: L) -> L {
 /// # Arguments
 /// `share`: A. `arriving`, `leaving`: post-collision populations of the link, f − w.
 /// # Source
-/// 000 Eq 11, 004 Eq 3.30; ERRATA 17 (both post-collision), 19, 23.
+/// 000 Eq 11, 004 Eq 3.30; docs/errata.md 17 (both post-collision), 19, 23.
 /// # Verified by
 /// Claim `dam-break-mass`; mutant `exchange-before-collision`.
 #[inline(always)]
@@ -69,7 +69,7 @@ pub fn link_mass<L: Lane>(share: L, arriving: L, leaving: L) -> L {
 /// # Exactness
 /// The odd parts of the two equilibria cancel before rounding.
 /// # Source
-/// 004 Eq 3.32; ERRATA 16 (which node), 17 (post-collision), 24 (ρ_g is the reference density).
+/// 004 Eq 3.32; docs/errata.md 16 (which node), 17 (post-collision), 24 (ρ_g is the reference density).
 /// # Verified by
 /// Claims `pool-at-rest`, `film-newtonian`; mutant `reconstruction-at-the-neighbour`.
 #[inline(always)]

@@ -14,7 +14,7 @@ pub const SMOOTHING: f64 = 1.0 / 16.0;
 /// # Arguments
 /// `force`: F of the bulk. `fill`: φ, 0 to 1. `acceleration`: a, cells per step².
 /// # Source
-/// Design \[F3\].
+/// docs/method.md \[F3\].
 /// # Verified by
 /// Claims `pool-at-rest`, `falling-drop-*`.
 #[inline(always)]
@@ -36,7 +36,7 @@ pub fn interface_force(rule: SurfaceForce, force: &[f64; 3], fill: f64, accelera
 /// a ← a + (Δu − a)/16.
 ///
 /// # Source
-/// Design \[F3\].
+/// docs/method.md \[F3\].
 /// # Verified by
 /// Claim `falling-drop-by-fill-and-inertia`.
 #[inline(always)]

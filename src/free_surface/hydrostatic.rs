@@ -96,7 +96,7 @@ fn lower(fill: &mut [f64], column: &[usize], weight: f64) {
 /// # Returns
 /// ρ − 1 per cell; 0 in gas and solids, and everywhere when the force is zero.
 /// # Source
-/// Design \[F3\]; stationary solution of collision and streaming with f = w(ρ − (3/2) c·F).
+/// docs/method.md \[F3\]; stationary solution of collision and streaming with f = w(ρ − (3/2) c·F).
 /// # Verified by
 /// Claim `pool-at-rest`.
 #[must_use]

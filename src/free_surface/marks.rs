@@ -31,7 +31,7 @@ pub struct Touches {
 /// # Arguments
 /// `mass`: m. `rho`: ρ. `margin`: ε. `lonely`: η.
 /// # Source
-/// Design \[F4\], \[F6\]; ERRATA 25. The last rule is ours.
+/// docs/method.md \[F4\], \[F6\]; docs/errata.md 25. The last rule is ours.
 /// # Verified by
 /// Claims `flat-layer-without-flicker`, `isolated-cell`.
 #[inline(always)]

@@ -41,7 +41,7 @@ impl Kind {
 /// # Arguments
 /// `fill`: 0 to 1 per cell. `is_solid(cell)`. `neighbours(cell)`: the cells its links lead to.
 /// # Source
-/// Design \[F1\]; 004 Sec 3.2.2.
+/// docs/method.md \[F1\]; 004 Sec 3.2.2.
 /// # Verified by
 /// Claim `flat-layer-without-flicker`.
 pub fn classify<N: IntoIterator<Item = usize>>(

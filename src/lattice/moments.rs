@@ -87,7 +87,7 @@ pub fn second<L: Lane>(h: &[L; Q]) -> [L; 6] {
 /// # Exactness
 /// Mirror-exact.
 /// # Source
-/// Design \[K3\].
+/// docs/method.md \[K3\].
 /// # Verified by
 /// Property `inverse_reproduces_moments`.
 #[inline(always)]
@@ -110,7 +110,7 @@ pub const THIRD: [[usize; 2]; 6] = [[0, 1], [0, 2], [1, 0], [1, 2], [2, 0], [2, 
 /// Π^neq_ab = Σ c_a c_b h − δρ δ_ab/3 − ρ u_a u_b
 ///
 /// # Source
-/// Design \[Y1\]; ERRATA 5 (force correction), 1 (equilibrium subtracted).
+/// docs/method.md \[Y1\]; docs/errata.md 5 (force correction), 1 (equilibrium subtracted).
 /// # Verified by
 /// Claims `shear-rate-couette`, `shear-rate-uniform-acceleration`.
 #[inline(always)]
@@ -153,7 +153,7 @@ pub fn moments<L: Lane>(h: &[L; Q], force: &[L; 3]) -> Moments<L> {
 /// Trace-free part of a symmetric tensor.
 ///
 /// # Source
-/// Design \[Y1\].
+/// docs/method.md \[Y1\].
 /// # Verified by
 /// Property `stress_is_isotropic`.
 #[inline(always)]
@@ -165,7 +165,7 @@ pub fn deviator<L: Lane>(q: &[L; 6]) -> [L; 6] {
 /// q = √(½ Q:Q) of a symmetric tensor \[Y1\].
 ///
 /// # Source
-/// Design \[Y1\]; ERRATA 3, 4 (which factor goes with which tensor).
+/// docs/method.md \[Y1\]; docs/errata.md 3, 4 (which factor goes with which tensor).
 /// # Verified by
 /// Claim `shear-rate-couette`.
 #[inline(always)]
@@ -181,7 +181,7 @@ pub fn magnitude<L: Lane>(q: &[L; 6]) -> L {
 /// # Exactness
 /// Mirror-exact; Σ h equals `m0` to the rounding of one subtraction.
 /// # Source
-/// Design \[K3\].
+/// docs/method.md \[K3\].
 /// # Verified by
 /// Property `inverse_reproduces_moments`.
 #[inline(always)]
@@ -220,7 +220,7 @@ pub fn populations<L: Lane>(m0: L, m1: &[L; 3], m2: &[L; 6], m3: &[L; 6], m4: &[
 /// f(s, r) = ¼ (m_aabb + s m_bba + r m_aab + s r m_ab) for the four diagonals (s, r) of one plane.
 ///
 /// # Source
-/// Design \[K3\].
+/// docs/method.md \[K3\].
 /// # Verified by
 /// Property `inverse_reproduces_moments`.
 #[inline(always)]
@@ -239,7 +239,7 @@ fn plane<L: Lane>(aabb: L, bba: L, aab: L, ab: L) -> [L; 4] {
 /// f(s) = ½ (m_aa − m_aabb − m_aacc + s (m_a − m_bba − m_cca)) for the two directions of one axis.
 ///
 /// # Source
-/// Design \[K3\].
+/// docs/method.md \[K3\].
 /// # Verified by
 /// Property `inverse_reproduces_moments`.
 #[inline(always)]
@@ -253,7 +253,7 @@ fn axis<L: Lane>(aa: L, fourth: [L; 2], a: L, third: [L; 2]) -> [L; 2] {
 /// Adds `delta` to the six third moments without touching density, momentum, second and fourth moments.
 ///
 /// # Source
-/// Design \[K6\] needs it; same inverse as [`populations`].
+/// docs/method.md \[K6\] needs it; same inverse as [`populations`].
 /// # Verified by
 /// Property `inverse_reproduces_moments`.
 #[inline(always)]

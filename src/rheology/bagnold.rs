@@ -127,7 +127,7 @@ pub struct ClassReport {
 
 /// Linear concentration λ = 1/((c_max/c)^{1/3} − 1).
 ///
-/// The ratio inverted, as one source prints it, makes λ negative (ERRATA 45).
+/// The ratio inverted, as one source prints it, makes λ negative (docs/errata.md 45).
 ///
 /// # Arguments
 /// `solid_fraction`: 0 < c < c_max; `maximum_packing`: c_max ≤ 1.

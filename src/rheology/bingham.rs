@@ -21,7 +21,7 @@ impl Rheology for Bingham {
     /// γ̇ = (q − σ0)/(μ + ρ/6) where q > σ0, else 0.
     ///
     /// # Source
-    /// Design \[Y3\]; ERRATA 6 (closed form of the implicit relation).
+    /// docs/method.md \[Y3\]; docs/errata.md 6 (closed form of the implicit relation).
     /// # Verified by
     /// Claim `poiseuille-bingham`; property `solve_is_monotone_and_unique`.
     #[inline(always)]

@@ -38,7 +38,7 @@ impl Rheology for HerschelBulkley {
     /// The root of q − σ0 = K γ̇ⁿ + (ρ/6) γ̇; zero where q does not exceed σ0.
     ///
     /// # Source
-    /// Design \[Y3\].
+    /// docs/method.md \[Y3\].
     /// # Verified by
     /// Claim `poiseuille-herschel-bulkley`; property `solve_is_monotone_and_unique`.
     #[inline(always)]

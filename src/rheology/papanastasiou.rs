@@ -48,7 +48,7 @@ impl OfTwo for Papanastasiou {
     /// The bracket: no single term may exceed q (upper end), each term at most q/3 (lower end).
     ///
     /// # Source
-    /// Design \[Y3\], \[Y4\].
+    /// docs/method.md \[Y3\], \[Y4\].
     /// # Verified by
     /// Claim `couette-all-laws`; property `solve_is_monotone_and_unique`.
     #[inline(always)]

@@ -25,7 +25,7 @@ impl Rheology for PowerLaw {
     /// The root of q = K γ̇ⁿ + (ρ/6) γ̇; zero at q = 0.
     ///
     /// # Source
-    /// Design \[Y3\] with σ0 = 0.
+    /// docs/method.md \[Y3\] with σ0 = 0.
     /// # Verified by
     /// Claim `couette-all-laws`; property `solve_is_monotone_and_unique`.
     #[inline(always)]

@@ -105,7 +105,7 @@ impl PowerSum {
     /// at most (n²+1)/6 δ³ < 1e-14 (n ≤ 5) is left of the error δ ≤ 1.3e-5 of the table, and c carries
     /// the half-units of rounding of four numbers below 100.
     /// # Source
-    /// Design \[Y3\].
+    /// docs/method.md \[Y3\].
     /// # Verified by
     /// Tests `residual_over_all_decades`, `table_error_is_below_its_bound`; property
     /// `solve_is_monotone_and_unique`.

@@ -7,7 +7,7 @@ use crate::lane::Lane;
 /// ω⁺ from a shear rate: 1/τ = ρ γ̇ / (3 q); zero where q is zero.
 ///
 /// # Source
-/// Design \[Y2\] solved for τ.
+/// docs/method.md \[Y2\] solved for τ.
 /// # Verified by
 /// Property `solve_is_monotone_and_unique`.
 #[inline(always)]
@@ -20,7 +20,7 @@ pub fn omega_of_shear_rate<L: Lane>(rho: L, gamma_dot: L, q: L) -> L {
 /// γ̇ = 3 q ω / ρ \[Y2\].
 ///
 /// # Source
-/// 004 Eq 3.27, corrected (ERRATA 2, 3).
+/// 004 Eq 3.27, corrected (docs/errata.md 2, 3).
 /// # Verified by
 /// Claim `shear-rate-couette`.
 #[inline(always)]
@@ -31,7 +31,7 @@ pub fn shear_rate_of_omega<L: Lane>(rho: L, omega: L, q: L) -> L {
 /// τ = ½ + 3 μ/ρ \[L6\].
 ///
 /// # Source
-/// 004 Eq 3.69; ERRATA 7–10: μ is dynamic, so it is divided by ρ.
+/// 004 Eq 3.69; docs/errata.md 7–10: μ is dynamic, so it is divided by ρ.
 /// # Verified by
 /// Claim `shear-wave-axis-bgk`.
 #[inline(always)]
@@ -49,7 +49,7 @@ pub fn tau_of_viscosity<L: Lane>(rho: L, mu: L) -> L {
 /// # Exactness
 /// Bit-stable; comparison and selection instead of branches.
 /// # Source
-/// Design \[Y1\]–\[Y4\]; 000 Eq 14, 001 Eq 8, 004 Eqs 3.34–3.35 for the lagged form.
+/// docs/method.md \[Y1\]–\[Y4\]; 000 Eq 14, 001 Eq 8, 004 Eqs 3.34–3.35 for the lagged form.
 /// # Verified by
 /// Claims `poiseuille-bingham`, `poiseuille-herschel-bulkley`, `poiseuille-clamped-implicit`,
 /// `poiseuille-clamped-lagged`.
@@ -79,7 +79,7 @@ pub fn omega<L: Lane, R: Rheology>(law: &R, treatment: YieldTreatment, rho: L, q
 /// are the same.
 ///
 /// # Source
-/// Design \[B3\]; the apparent viscosity is right there only for a Newtonian fluid.
+/// docs/method.md \[B3\]; the apparent viscosity is right there only for a Newtonian fluid.
 /// # Verified by
 /// Claim `poiseuille-wall-node-error`.
 #[inline(always)]

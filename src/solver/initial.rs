@@ -41,7 +41,7 @@ pub fn tau_at(law: &Law, rho: f64, gamma_dot: f64) -> f64 {
 /// `point`: the flow at the cell centre, lattice units. `law`: the fluid there. `force`: body force
 /// at step 0.
 /// # Source
-/// Design \[Y2\], \[L4\], \[K3\].
+/// docs/method.md \[Y2\], \[L4\], \[K3\].
 /// # Verified by
 /// Claims `taylor-green-3d`, `shear-wave-axis-bgk`; test `exact_moments_of_a_started_cell`.
 #[must_use]

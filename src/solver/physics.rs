@@ -1,6 +1,6 @@
 //! The equations of one cell as a set.
 //!
-//! [`Standard`] is the physics of the design: every method forwards to the function that holds the
+//! [`Standard`] is the physics of docs/method.md: every method forwards to the function that holds the
 //! equation. Who wants to see a claim fail wraps it and overrides one method; the hot loop is compiled for
 //! each, and the right one pays nothing for it. The equations of the free surface are in
 //! [`crate::free_surface`].
@@ -69,7 +69,7 @@ pub trait Physics: Clone + Send + Sync + 'static {
     }
 }
 
-/// The physics of the design, for one law type and one collision type.
+/// The physics of docs/method.md, for one law type and one collision type.
 #[derive(Clone, Debug)]
 pub struct Standard<R, C> {
     /// The laws, by fluid number.

@@ -30,7 +30,7 @@ impl Linearised {
     /// # Exactness
     /// + − × ÷ √ of the kernel and its derivative, one order; bit-stable.
     /// # Source
-    /// Design \[K5\].
+    /// docs/method.md \[K5\].
     /// # Verified by
     /// Claims `neumann-noise-evolution`, `neumann-table`; test `conserves_mass_and_momentum_linearly`.
     #[must_use]
@@ -68,7 +68,7 @@ impl Linearised {
     /// # Arguments
     /// `k`: wave vector, radians per cell.
     /// # Source
-    /// Design \[K5\]; J. D. Sterling and S. Chen, J. Comput. Phys. 123 (1996) 196.
+    /// docs/method.md \[K5\]; J. D. Sterling and S. Chen, J. Comput. Phys. 123 (1996) 196.
     /// # Verified by
     /// Claim `neumann-noise-evolution`.
     #[must_use]

@@ -38,7 +38,7 @@ impl Spectrum {
     /// The norms after `interval`, 2 `interval`, … `count` `interval` steps of linear evolution.
     ///
     /// # Source
-    /// Design \[K5\]: f(k, t) = M(k)^t f(k, 0).
+    /// docs/method.md \[K5\]: f(k, t) = M(k)^t f(k, 0).
     /// # Verified by
     /// Claim `neumann-noise-evolution`.
     #[must_use]

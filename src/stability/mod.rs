@@ -48,7 +48,7 @@ pub enum StabilityError {
 /// # Errors
 /// τ⁺ is not above ½, or the eigenvalues did not converge.
 /// # Source
-/// Design \[K5\].
+/// docs/method.md \[K5\].
 /// # Verified by
 /// Claim `neumann-growth-rates`.
 pub fn growth<O: Collision>(
@@ -82,7 +82,7 @@ pub struct StabilityLimit {
 /// # Errors
 /// τ⁺ is not above ½, or eigenvalues did not converge.
 /// # Source
-/// Design \[K5\].
+/// docs/method.md \[K5\].
 /// # Verified by
 /// Claim `neumann-table`.
 pub fn max_stable_speed(collision: &CollisionChoice, tau: f64) -> Result<StabilityLimit, StabilityError> {

@@ -261,7 +261,7 @@ fn climb(linearised: &Linearised, start: Peak, width: f64) -> Result<Peak, Stabi
 /// # Errors
 /// τ⁺ is not above ½, or eigenvalues did not converge.
 /// # Source
-/// Design \[K5\].
+/// docs/method.md \[K5\].
 /// # Verified by
 /// Claim `neumann-table`.
 pub fn max_stable_speed_along<O: Collision>(

@@ -15,7 +15,7 @@ pub struct Claim {
     pub id: &'static str,
     /// One sentence, as a heading of the report.
     pub title: &'static str,
-    /// Equation tags of the design it checks: `["L5", "Y3"]`, and paper equations: `["004 Eq 3.55"]`.
+    /// Tags of docs/method.md that it checks: `["L5", "Y3"]`, and paper equations: `["004 Eq 3.55"]`.
     pub tags: &'static [&'static str],
     /// What is measured, with its unit or normalisation.
     pub measures: &'static str,

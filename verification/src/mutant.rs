@@ -13,7 +13,7 @@ use lahar::solver::run::Backend;
 pub struct Mutant {
     /// Unique among claims, exhibits and mutants, kebab-case.
     pub id: &'static str,
-    /// Entry of the errata it codes, or the design rule it breaks: `ERRATA 14 (000 Eq 10)`.
+    /// Entry of the errata it codes, or the rule of the method it breaks: `ERRATA 14 (000 Eq 10)`.
     pub erratum: &'static str,
     /// What is wrong in it, in a sentence.
     pub description: &'static str,

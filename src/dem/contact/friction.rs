@@ -23,7 +23,7 @@ pub struct Slider {
 /// # Returns
 /// The force, the rate of loss while sticking (W), and the work of slip in this step (J), both ≥ 0.
 /// # Source
-/// DESIGN \[D2\]; Cundall & Strack 1979; Luding 2008, doi:10.1007/s10035-008-0099-x.
+/// docs/method.md \[D2\]; Cundall & Strack 1979; Luding 2008, doi:10.1007/s10035-008-0099-x.
 /// # Verified by
 /// `exact_sliding_to_rolling`, `exact_incline_threshold`, `balance_of_energy`.
 #[inline(always)]

@@ -7,7 +7,7 @@ use super::{Geometry, Normal};
 /// With a = √(R* δ): elastic (4/3) E* a δ, damping 2 A E* a, tangential stiffness 8 G* a (Mindlin).
 ///
 /// # Source
-/// DESIGN \[D1\]; Brilliantov, Spahn, Hertzsch & Pöschel 1996, doi:10.1103/PhysRevE.53.5382.
+/// docs/method.md \[D1\]; Brilliantov, Spahn, Hertzsch & Pöschel 1996, doi:10.1103/PhysRevE.53.5382.
 /// # Verified by
 /// `exact_hertz_contact`, `reference_restitution_viscoelastic`.
 #[inline(always)]

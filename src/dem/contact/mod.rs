@@ -220,7 +220,7 @@ pub struct Memory<'a> {
 /// # Arguments
 /// `equations`: [`StandardContact`] but for trials. `memory`: of this contact.
 /// # Source
-/// DESIGN \[D1\], \[D2\]; 000 Sec 2.1.
+/// docs/method.md \[D1\], \[D2\]; 000 Sec 2.1.
 #[inline(always)]
 pub fn react<E: ContactEquations>(equations: &E, contact: &Contact, memory: Memory) -> Reaction {
     let Contact { law, geometry: g, motion: m, .. } = contact;

@@ -5,7 +5,7 @@ use super::{Geometry, Normal};
 /// Terms of F = k δ^{3/2} + α √(m* k) δ^{1/4} δ̇ with k = (4/3) E* √R*.
 ///
 /// # Source
-/// DESIGN \[D1\]; Tsuji, Tanaka & Ishida 1992, doi:10.1016/0032-5910(92)88030-L.
+/// docs/method.md \[D1\]; Tsuji, Tanaka & Ishida 1992, doi:10.1016/0032-5910(92)88030-L.
 /// # Verified by
 /// `reference_restitution_tsuji`.
 #[inline(always)]

@@ -38,7 +38,7 @@ impl Gear {
     /// Correction by the acceleration found at the predicted state.
     ///
     /// # Source
-    /// Gear 1971; Allen & Tildesley, Computer Simulation of Liquids, appendix E; DESIGN \[D3\], ERRATA 34.
+    /// Gear 1971; Allen & Tildesley, Computer Simulation of Liquids, appendix E; docs/method.md \[D3\], docs/errata.md 34.
     /// # Verified by
     /// `order_gear_smooth`.
     #[inline]
@@ -172,7 +172,7 @@ mod tests {
         (x * x + v * v).sqrt()
     }
 
-    /// REFERENCES §10: 5.2–5.4 with exact start derivatives, 2.0 with zero ones (both c₀ = 3/20). With c₀ = 3/16,
+    /// docs/references.md §10: 5.2–5.4 with exact start derivatives, 2.0 with zero ones (both c₀ = 3/20). With c₀ = 3/16,
     /// meant for forces that depend on velocity, the order is 5.
     #[test]
     fn order_gear_smooth() {

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 /// # Returns
 /// The first body whose free rotation did not converge.
 /// # Source
-/// DESIGN \[D3\], \[D4\]; Swope et al. 1982, doi:10.1063/1.442716.
+/// docs/method.md \[D3\], \[D4\]; Swope et al. 1982, doi:10.1063/1.442716.
 /// # Verified by
 /// `order_verlet_smooth`, `conserves_clump_free`, `exact_flip_period`.
 pub fn drift(b: &mut Bodies, external: &External, step: &Step) -> Option<usize> {
@@ -55,7 +55,7 @@ fn drift_one(body: Body, (force, torque): (V3, V3), step: &Step) -> Result<(), T
 /// # Returns
 /// The first body whose state is not finite.
 /// # Source
-/// DESIGN \[D3\], \[D4\]; Swope et al. 1982, doi:10.1063/1.442716.
+/// docs/method.md \[D3\], \[D4\]; Swope et al. 1982, doi:10.1063/1.442716.
 /// # Verified by
 /// `order_verlet_smooth`, `conserves_clump_free`, `exact_flip_period`.
 pub fn correct<F>(b: &mut Bodies, dt: f64, found: F) -> Option<usize>

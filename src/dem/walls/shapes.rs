@@ -8,7 +8,7 @@ use crate::dem::V3;
 /// A box around grains gives one point per face in reach; every convex obstacle gives exactly one point, so a
 /// grain on an edge or a corner has one contact.
 /// # Source
-/// DESIGN \[D5\].
+/// docs/method.md \[D5\].
 /// # Verified by
 /// `wall_shapes_nearest_points`, `mesh_edge_gives_one_contact`.
 pub fn near(surface: &Surface, x: &V3, reach: f64, triangles: Option<&[u32]>, out: &mut Vec<Near>) {

@@ -5,7 +5,7 @@
 /// # Arguments
 /// `mass`: m of the cell that converts. `full`: m′ of what it becomes, ρ for liquid and 0 for gas.
 /// # Source
-/// Design \[F4\]; ERRATA 25 (000 has no rule for it).
+/// docs/method.md \[F4\]; docs/errata.md 25 (000 has no rule for it).
 /// # Verified by
 /// Claim `dam-break-mass`; mutant `excess-dropped`.
 #[inline(always)]

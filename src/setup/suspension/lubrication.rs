@@ -14,7 +14,7 @@ pub const STIFFEST: f64 = 0.5;
 /// `viscosity`: μ of the fluid in the gap. `reduced`: r₁r₂/(r₁+r₂), r against a plane. `gap`: h, `cutoff`: h_c, same
 /// unit as the radii.
 /// # Source
-/// 000 Eq 15; ERRATA 35 (π is missing there; along the line of centres).
+/// 000 Eq 15; docs/errata.md 35 (π is missing there; along the line of centres).
 /// # Verified by
 /// Claim `lubrication-approach`; mutant `lubrication-without-pi`.
 #[must_use]

@@ -1,4 +1,4 @@
-//! The plain backend: scalar `f64`, one array entry per cell, written to be read beside the design.
+//! The plain backend: scalar `f64`, one array entry per cell, written to be read beside docs/method.md.
 //!
 //! A step is: wall slip where a wall needs it \[B3\], collide every cell, exchange mass below a free surface
 //! \[F1\], stream every cell, convert cells \[F4\]. Each pass reads one array and writes another, so the result

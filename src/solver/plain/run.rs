@@ -48,7 +48,7 @@ impl<P: Physics> PlainRun<P> {
 }
 
 impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
-    /// As [`PlainRun::start`], with other equations for the free surface than those of the design.
+    /// As [`PlainRun::start`], with other equations for the free surface than those of docs/method.md.
     ///
     /// # Errors
     /// As [`PlainRun::start`].

@@ -191,7 +191,7 @@ impl Physics for Wrong {
     }
 }
 
-/// The surface of the design with one equation overridden.
+/// The surface of the method with one equation overridden.
 #[derive(Clone)]
 struct WrongSurface {
     mistake: Mistake,

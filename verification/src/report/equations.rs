@@ -176,7 +176,7 @@ fn claims_of(tag: &str, chapters: &[Chapter]) -> String {
     chapters.iter().enumerate().filter_map(of).collect::<Vec<_>>().join("; ")
 }
 
-/// Sorts `ERRATA 9` before `ERRATA 10`.
+/// Sorts `docs/errata.md 9` before `docs/errata.md 10`.
 fn key(tag: &str) -> (String, u32) {
     let digits = tag.len() - tag.trim_end_matches(|c: char| c.is_ascii_digit()).len();
     let (words, number) = tag.split_at(tag.len() - digits);

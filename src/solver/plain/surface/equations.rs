@@ -31,7 +31,7 @@ pub struct SurfaceLink {
 }
 
 /// The physics of the surface, given the arrays they are about: an implementation may read other cells or another
-/// time level than the design. What is not overridden is right.
+/// time level than the method. What is not overridden is right.
 pub trait SurfacePhysics: Clone + Send + Sync + 'static {
     /// Δm that an interface cell gains over a link to another fluid cell \[F1\].
     #[inline(always)]
@@ -55,7 +55,7 @@ pub trait SurfacePhysics: Clone + Send + Sync + 'static {
     }
 }
 
-/// The surface of the design.
+/// The surface of the method.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Design;
 

@@ -57,7 +57,7 @@ pub const NEWTONIAN: Claim = Claim {
     },
 };
 
-/// Laws of `couette-all-laws`, in units of gap 2, wall speed 1 (REFERENCES 4).
+/// Laws of `couette-all-laws`, in units of gap 2, wall speed 1 (docs/references.md §4).
 const LAWS: [Law; 5] = [
     Law::Newtonian { mu: 0.2 },
     Law::Bingham { sigma0: 0.5, mu: 0.2 },

@@ -11,7 +11,7 @@ use lahar::solver::run::{Backend, Run, Runaway};
 use lahar::stability::table::OPERATORS;
 use lahar::stability::{Direction, Linearised, Spectrum, max_stable_speed};
 
-/// Cells per axis, τ⁺, speed, amplitude of the noise: hard case H1.
+/// Cells per axis, τ⁺, speed, amplitude of the noise: docs/hard-cases.md H1.
 const CELLS: usize = 16;
 const TAU: f64 = 0.501;
 const SPEED: f64 = 0.05;

@@ -1,5 +1,5 @@
 //! Gravity switched on in a closed box: standing sound wave, its damping, and hydrostatic rest
-//! (hard case H11).
+//! (docs/hard-cases.md H11).
 
 use core::f64::consts::PI;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! A Bingham channel whose force drops below yield stops in finite time (hard case H14).
+//! A Bingham channel whose force drops below yield stops in finite time (docs/hard-cases.md H14).
 
 use std::sync::OnceLock;
 

@@ -291,7 +291,7 @@ fn measure_advected(backend: &dyn Backend, speed: f64) -> Result<Sample, VerifyE
     worst.ok_or(VerifyError::Numerics { what: "Taylor-Green", detail: String::new() })
 }
 
-/// Hard case H10.
+/// docs/hard-cases.md H10.
 pub const ADVECTED: Claim = Claim {
     id: "advected-taylor-green",
     title: "BGK's error in the decay of an advected Taylor-Green vortex grows as U² (H10)",
