@@ -19,7 +19,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     write_with(path, |file| file.write_all(bytes))
 }
 
-/// The same for what is too large to be held in one piece: `content` sends it bit by bit.
+/// Writes a file whole or not at all whose content is too large to be held in one piece: `content` sends it bit by bit.
 ///
 /// # Errors
 /// As [`write()`].

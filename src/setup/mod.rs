@@ -174,7 +174,7 @@ pub enum Refill {
     /// Equilibrium at the mean density and velocity of its fluid neighbours.
     #[default]
     Equilibrium,
-    /// The same with the mean non-equilibrium part of those neighbours.
+    /// Equilibrium as above, with the mean non-equilibrium part of those neighbours.
     WithStress,
 }
 
