@@ -30,6 +30,11 @@ const SWEEPS: u32 = 60;
 /// `parity_spectral_radius_with_faer`.
 #[must_use]
 pub fn eigenvalues(matrix: &Matrix) -> Option<[C64; Q]> {
+    let finite = |z: &C64| z.re.is_finite() && z.im.is_finite();
+    // A triangular matrix has eigenvalues whatever stands above its diagonal.
+    if !matrix.iter().flatten().all(finite) {
+        return None;
+    }
     let mut h = hessenberg(matrix);
     let mut values = [ZERO; Q];
     let mut end = Q;
@@ -48,7 +53,7 @@ pub fn eigenvalues(matrix: &Matrix) -> Option<[C64; Q]> {
         let shift = if sweeps % 10 == 0 { odd_shift(&h, end) } else { wilkinson_shift(&h, end) };
         sweep(&mut h, start..end, shift);
     }
-    values.iter().all(|x| x.re.is_finite() && x.im.is_finite()).then_some(values)
+    values.iter().all(finite).then_some(values)
 }
 
 /// |z|.
