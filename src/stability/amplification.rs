@@ -1,7 +1,7 @@
 //! One linearised step: exact Jacobian of a collision kernel times the phase of streaming.
 
 use super::StabilityError;
-use super::eigenvalues::{C64, Matrix, eigenvalues, modulus};
+use super::eigenvalues::{C64, EigenvalueSolver, Matrix, eigenvalues, modulus};
 use crate::collision::Collision;
 use crate::lane::Dual;
 use crate::lattice::equilibrium::equilibrium;
@@ -15,6 +15,8 @@ pub struct Linearised {
     jacobian: [[f64; Q]; Q],
     /// The velocity it was taken at.
     velocity: [f64; 3],
+    /// What finds the eigenvalues of M(k).
+    solver: EigenvalueSolver,
 }
 
 impl Linearised {
@@ -48,7 +50,13 @@ impl Linearised {
                 jacobian[i][j] = post[i].slope;
             }
         }
-        Self { jacobian, velocity: u }
+        Self { jacobian, velocity: u, solver: eigenvalues }
+    }
+
+    /// The same step with another way to find eigenvalues, for comparisons.
+    #[must_use]
+    pub fn with_solver(self, solver: EigenvalueSolver) -> Self {
+        Self { solver, ..self }
     }
 
     /// The Jacobian ∂f*_i/∂f_j.
@@ -82,7 +90,7 @@ impl Linearised {
     /// # Errors
     /// The matrix is not finite.
     pub fn spectral_radius(&self, k: [f64; 3]) -> Result<f64, StabilityError> {
-        let found = eigenvalues(&self.amplification(k))
+        let found = (self.solver)(&self.amplification(k))
             .ok_or(StabilityError::Eigenvalues { velocity: self.velocity, wave: k })?;
         Ok(found.into_iter().map(modulus).fold(0.0, f64::max))
     }

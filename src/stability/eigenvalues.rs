@@ -9,6 +9,9 @@ pub type C64 = Complex<f64>;
 /// A matrix over the nineteen populations, row by row.
 pub type Matrix = [[C64; Q]; Q];
 
+/// All eigenvalues of a matrix, in no order; `None` where they were not found.
+pub type EigenvalueSolver = fn(&Matrix) -> Option<[C64; Q]>;
+
 /// Zero.
 pub const ZERO: C64 = Complex::new(0.0, 0.0);
 /// Sweeps until one eigenvalue has settled: two or three are usual, the shift is changed after every tenth.

@@ -18,7 +18,8 @@ struct Flow {
     setup: Setup,
     tau: f64,
     step: u64,
-    f: Vec<[f64; Q]>,
+    /// f − w: what is left of the digits of f itself would be the error of a faint wave.
+    h: Vec<[f64; Q]>,
 }
 
 impl Backend for Textbook {
@@ -36,30 +37,30 @@ impl Backend for Textbook {
         }
         let start = |cell: usize| {
             let point = setup.initial.as_ref().map_or(initial::REST, |flow| flow(setup.coordinates(cell)));
-            let h = initial::start(&point, &setup.law(cell), &setup.force.at(0));
-            std::array::from_fn(|i| h[i] + W[i])
+            initial::start(&point, &setup.law(cell), &setup.force.at(0))
         };
-        let f = (0..setup.cells()).map(start).collect();
-        Ok(Box::new(Flow { setup: setup.clone(), tau: 0.5 + 3.0 * mu, step: 0, f }))
+        let h = (0..setup.cells()).map(start).collect();
+        Ok(Box::new(Flow { setup: setup.clone(), tau: 0.5 + 3.0 * mu, step: 0, h }))
     }
 }
 
 impl Flow {
     /// f_i(x + c_i, t + 1) = f_i − (f_i − f_i^eq)/τ, without force.
     fn collide_and_push(&mut self) {
-        let mut next = self.f.clone();
-        for (cell, f) in self.f.iter().enumerate() {
-            let rho: f64 = f.iter().sum();
+        let mut next = self.h.clone();
+        for (cell, h) in self.h.iter().enumerate() {
+            let excess: f64 = h.iter().sum();
+            let rho = 1.0 + excess;
             let u: [f64; 3] =
-                std::array::from_fn(|a| (0..Q).map(|i| f[i] * f64::from(C[i][a])).sum::<f64>() / rho);
+                std::array::from_fn(|a| (0..Q).map(|i| h[i] * f64::from(C[i][a])).sum::<f64>() / rho);
             let uu: f64 = u.iter().map(|u| u * u).sum();
             for i in 0..Q {
                 let cu: f64 = (0..3).map(|a| f64::from(C[i][a]) * u[a]).sum();
-                let equilibrium = W[i] * rho * (1.0 + 3.0 * cu + 4.5 * cu * cu - 1.5 * uu);
-                next[self.neighbour(cell, i)][i] = f[i] - (f[i] - equilibrium) / self.tau;
+                let equilibrium = W[i] * (excess + rho * (3.0 * cu + 4.5 * cu * cu - 1.5 * uu));
+                next[self.neighbour(cell, i)][i] = h[i] - (h[i] - equilibrium) / self.tau;
             }
         }
-        self.f = next;
+        self.h = next;
         self.step += 1;
     }
 
@@ -85,20 +86,20 @@ impl Run for Flow {
     }
 
     fn fields(&self) -> Fields {
-        let mut fields = Fields::empty(self.f.len());
-        for cell in 0..self.f.len() {
+        let mut fields = Fields::empty(self.h.len());
+        for cell in 0..self.h.len() {
             fields.record(cell, &moments(&self.populations(cell), &[0.0; 3]), 1.0 / self.tau);
         }
         fields
     }
 
     fn populations(&self, cell: usize) -> [f64; Q] {
-        std::array::from_fn(|i| self.f[cell][i] - W[i])
+        self.h[cell]
     }
 
     fn totals(&self) -> Totals {
         let mut totals = Totals { mass_excess: 0.0, momentum: [0.0; 3], kinetic_energy: 0.0 };
-        for cell in 0..self.f.len() {
+        for cell in 0..self.h.len() {
             let m = moments(&self.populations(cell), &[0.0; 3]);
             totals.mass_excess += m.d_rho;
             totals.kinetic_energy += 0.5 * m.rho * m.u.iter().map(|u| u * u).sum::<f64>();
@@ -109,7 +110,7 @@ impl Run for Flow {
 
     fn fingerprint(&self) -> Fingerprint {
         let mut hasher = Hasher::default();
-        (0..self.f.len()).for_each(|cell| hasher.cell(&self.populations(cell)));
+        (0..self.h.len()).for_each(|cell| hasher.cell(&self.populations(cell)));
         let Totals { mass_excess, momentum, .. } = self.totals();
         let speed = |u: &[f64; 3]| u.iter().map(|u| u * u).sum::<f64>().sqrt();
         let max_speed = self.fields().velocity.iter().map(speed).fold(0.0, f64::max);
@@ -117,13 +118,13 @@ impl Run for Flow {
     }
 
     fn fluid_cells(&self) -> u64 {
-        self.f.len() as u64
+        self.h.len() as u64
     }
 
     fn leave(&mut self, _keep: &[bool]) {}
 
     fn allocated_bytes(&self) -> u64 {
-        size_of_val(&self.f[..]) as u64
+        size_of_val(&self.h[..]) as u64
     }
 }
 

@@ -46,7 +46,9 @@ impl Selection {
         let ids: Vec<S> = ids.into_iter().collect();
         if let Some(unknown) = ids.iter().map(AsRef::as_ref).find(|id| every().all(|c| c.id != *id)) {
             let similar = |c: &&Claim| c.id.contains(unknown) || shared(c.id, unknown) >= 8;
-            let nearest = every().filter(similar).take(5).map(|c| c.id).collect();
+            let mut nearest: Vec<&str> = every().filter(similar).map(|c| c.id).collect();
+            nearest.sort_by_key(|id| std::cmp::Reverse(shared(id, unknown)));
+            nearest.truncate(5);
             return Err(SelectionError::Claim { id: unknown.to_owned(), nearest });
         }
         Ok(Self::of(|claim| ids.iter().any(|id| id.as_ref() == claim.id)))

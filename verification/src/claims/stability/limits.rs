@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::eigenvalues::by_faer;
 use super::reference::{BGK, GROWTH, Op, TAUS, TRT_14, TRT_316};
 use crate::claim::{
     Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
@@ -294,7 +295,7 @@ pub const REST: Claim = Claim {
     kind: Kind::Verification,
     measure: |_, tau| {
         let search = Search { grids: &[16], starts: 12 };
-        let rest = Linearised::about(&CollisionChoice::default(), tau, [0.0; 3]);
+        let rest = Linearised::about(&CollisionChoice::default(), tau, [0.0; 3]).with_solver(by_faer);
         let peak = peak(&rest, &search).map_err(numerics)?;
         Ok(Sample::absolute(tau, (peak.radius - 1.0).max(0.0), 0.0))
     },
@@ -332,7 +333,8 @@ pub const RIGID: Claim = Claim {
                 &CollisionChoice::default(),
                 f64::INFINITY,
                 direction.velocity(1.0 / parameter),
-            );
+            )
+            .with_solver(by_faer);
             worst = worst.max(peak(&moving, &search).map_err(numerics)?.radius - 1.0);
         }
         Ok(Sample::absolute(parameter, worst, 0.0).with("growth / U^2", worst * parameter * parameter))

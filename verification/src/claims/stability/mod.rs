@@ -1,5 +1,6 @@
 //! Claims of the study `stability`: von Neumann analysis and runs driven unstable on purpose.
 
+mod eigenvalues;
 mod exhibits;
 mod galilean;
 mod layers;
