@@ -6,14 +6,14 @@
 /// a · b
 #[inline]
 #[must_use]
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// |a|² = a · a
 #[inline]
 #[must_use]
-pub fn norm_squared(a: [f64; 3]) -> f64 {
+pub(crate) fn norm_squared(a: [f64; 3]) -> f64 {
     dot(a, a)
 }
 
@@ -27,14 +27,14 @@ pub fn norm(a: [f64; 3]) -> f64 {
 /// a − b
 #[inline]
 #[must_use]
-pub fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(crate) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|i| a[i] - b[i])
 }
 
 /// a × b
 #[inline]
 #[must_use]
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
@@ -48,7 +48,7 @@ pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 /// Claims `taylor-couette`, `sphere-spin-in-shear`.
 #[inline]
 #[must_use]
-pub fn surface_velocity(velocity: [f64; 3], spin: [f64; 3], arm: [f64; 3]) -> [f64; 3] {
+pub(crate) fn surface_velocity(velocity: [f64; 3], spin: [f64; 3], arm: [f64; 3]) -> [f64; 3] {
     let turning = cross(spin, arm);
     std::array::from_fn(|i| velocity[i] + turning[i])
 }

@@ -16,9 +16,9 @@ use super::statistics::Spread;
 use crate::lane::streaming::{Line, fence, store_line_past_cache};
 
 /// Bytes of one cell update that no f64 scheme with 19 stored populations goes below: all read, all written.
-pub const BYTES_PER_UPDATE: f64 = 2.0 * 19.0 * BYTES_PER_NUMBER;
+pub(crate) const BYTES_PER_UPDATE: f64 = 2.0 * 19.0 * BYTES_PER_NUMBER;
 /// Of a population in double precision.
-pub const BYTES_PER_NUMBER: f64 = 8.0;
+pub(crate) const BYTES_PER_NUMBER: f64 = 8.0;
 
 /// One way to use the memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -68,7 +68,7 @@ impl Kernel {
 
     /// Bytes counted per element.
     #[must_use]
-    pub const fn bytes_per_element(self) -> u64 {
+    pub(crate) const fn bytes_per_element(self) -> u64 {
         match self {
             Self::Read => 8,
             Self::Copy | Self::CopyPastCache | Self::InPlace | Self::InPlacePastCache => 16,
@@ -167,7 +167,7 @@ fn triad(b: &Line, c: &Line, s: f64) -> [f64; 8] {
 ///
 /// # Errors
 /// The threads cannot be started.
-pub fn measure(array_bytes: u64, threads: usize, repeats: usize) -> Result<Vec<Speed>, BenchError> {
+pub(crate) fn measure(array_bytes: u64, threads: usize, repeats: usize) -> Result<Vec<Speed>, BenchError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(BenchError::Threads)?;
     let lines = (array_bytes as usize / size_of::<Line>() / threads).max(1);
     let barrier = Barrier::new(threads);

@@ -18,7 +18,7 @@ pub struct Machine {
 impl Machine {
     /// This one.
     #[must_use]
-    pub fn this() -> Self {
+    pub(crate) fn this() -> Self {
         let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
         Self {
             processor: processor(&text).unwrap_or_else(|| std::env::consts::ARCH.to_owned()),

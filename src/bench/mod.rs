@@ -6,7 +6,7 @@
 //! timed in turns, slice by slice, and ratios are taken within a turn: whatever else the machine does hits
 //! both sides.
 
-pub mod bandwidth;
+pub(crate) mod bandwidth;
 pub mod cases;
 mod error;
 mod flows;
@@ -143,7 +143,7 @@ pub struct Ceiling {
 
 /// Names that [`Options::only`] may have.
 #[must_use]
-pub fn names() -> Vec<String> {
+pub(crate) fn names() -> Vec<String> {
     let groups = GROUPS.iter();
     let names =
         groups.flat_map(|group| std::iter::once(group.name).chain(group.cases.iter().map(|case| case.name)));

@@ -3,7 +3,7 @@
 use crate::lane::Lane;
 use crate::lattice::W;
 use crate::lattice::equilibrium::dot;
-pub use crate::vector::surface_velocity;
+pub(crate) use crate::vector::surface_velocity;
 
 /// f_ī(x, t+1) = f_i*(x) − 6 w_i ρ c_i·u_w
 ///
@@ -34,7 +34,7 @@ pub fn bounce_back<L: Lane>(out: L, i: usize, rho: L, u_wall: &[L; 3]) -> L {
 /// # Verified by
 /// Claim `galilean-twin`.
 #[must_use]
-pub fn cubic(i: usize, rho: f64, u: &[f64; 3]) -> f64 {
+pub(crate) fn cubic(i: usize, rho: f64, u: &[f64; 3]) -> f64 {
     let c = crate::lattice::C[i].map(f64::from);
     let along: [f64; 3] = std::array::from_fn(|a| c[a] * u[a]);
     let sum = along[0] + along[1] + along[2];

@@ -28,7 +28,7 @@ pub enum Source {
 
 /// A cell that touches a wall, a solid or a mirror plane.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BoundaryCell {
+pub(crate) struct BoundaryCell {
     /// Linear index.
     pub cell: u32,
     /// Source of each arriving population; entry 0 is the cell itself.
@@ -43,7 +43,7 @@ pub struct BoundaryCell {
 
 /// What a cell is for streaming.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CellKind {
+pub(crate) enum CellKind {
     /// Not computed.
     Solid,
     /// All arriving populations come from fluid cells, directly or through a periodic face.
@@ -55,7 +55,7 @@ pub enum CellKind {
 const SOLID: u32 = u32::MAX;
 const BULK: u32 = u32::MAX - 1;
 /// Most cells that fit the index.
-pub const MAX_CELLS: u64 = BULK as u64 - 1;
+pub(crate) const MAX_CELLS: u64 = BULK as u64 - 1;
 
 /// Neighbour table of a whole box.
 #[derive(Clone, Debug)]
@@ -108,7 +108,7 @@ impl Links {
     /// What a cell is.
     #[inline(always)]
     #[must_use]
-    pub fn kind(&self, cell: usize) -> CellKind {
+    pub(crate) fn kind(&self, cell: usize) -> CellKind {
         match self.kinds[cell] {
             SOLID => CellKind::Solid,
             BULK => CellKind::Bulk,
@@ -118,20 +118,20 @@ impl Links {
 
     /// Records of all boundary cells, in cell order.
     #[must_use]
-    pub fn boundary(&self) -> &[BoundaryCell] {
+    pub(crate) fn boundary(&self) -> &[BoundaryCell] {
         &self.boundary
     }
 
     /// Number of fluid cells.
     #[must_use]
-    pub const fn fluid_cells(&self) -> u64 {
+    pub(crate) const fn fluid_cells(&self) -> u64 {
         self.fluid_cells
     }
 
     /// Linear index of x − c_i, periodic in every axis.
     #[inline(always)]
     #[must_use]
-    pub fn upstream(&self, [x, y, z]: [usize; 3], i: usize) -> usize {
+    pub(crate) fn upstream(&self, [x, y, z]: [usize; 3], i: usize) -> usize {
         let step = |axis: usize, at: usize| self.from[axis][at][(C[i][axis] + 1) as usize];
         step(0, x) + step(1, y) + step(2, z)
     }
@@ -139,7 +139,7 @@ impl Links {
     /// Where population `i` that arrives in a cell comes from; the cell must not be solid.
     #[inline]
     #[must_use]
-    pub fn source(&self, cell: usize, i: usize) -> Source {
+    pub(crate) fn source(&self, cell: usize, i: usize) -> Source {
         let [nx, ny, _] = self.extents;
         self.source_at(cell, [cell % nx, (cell / nx) % ny, cell / (nx * ny)], i)
     }
@@ -147,7 +147,7 @@ impl Links {
     /// As [`Self::source`], for who knows the coordinates `at` of the cell.
     #[inline]
     #[must_use]
-    pub fn source_at(&self, cell: usize, at: [usize; 3], i: usize) -> Source {
+    pub(crate) fn source_at(&self, cell: usize, at: [usize; 3], i: usize) -> Source {
         match self.kinds[cell] {
             SOLID | BULK => Source::Cell { cell: self.upstream(at, i) as u32, direction: i as u8 },
             slot => self.boundary[slot as usize].sources[i],
@@ -167,7 +167,7 @@ impl Links {
 
     /// The fluid neighbour along an axis, if there is one: the cell that populations come from.
     #[must_use]
-    pub fn neighbour(&self, cell: usize, axis: usize, positive: bool) -> Option<usize> {
+    pub(crate) fn neighbour(&self, cell: usize, axis: usize, positive: bool) -> Option<usize> {
         let mut c = [0; 3];
         c[axis] = if positive { -1 } else { 1 };
         let i = direction(c)?;
@@ -186,7 +186,7 @@ impl Links {
 
     /// Bytes held by the table.
     #[must_use]
-    pub fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         let axes: usize = self.from.iter().map(Vec::len).sum();
         (self.kinds.len() * size_of::<u32>()
             + self.boundary.len() * size_of::<BoundaryCell>()
@@ -196,7 +196,7 @@ impl Links {
 
 /// The record of a cell, or `None` if every link is ordinary; `setup` must have passed
 /// [`crate::solver::check::check`] and the cell must not be solid.
-pub fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> {
+pub(crate) fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> {
     let at = setup.coordinates(cell);
     let mut sources = [Source::Cell { cell: cell as u32, direction: 0 }; Q];
     let mut ordinary = true;
@@ -247,7 +247,7 @@ fn wall_normal(towards: [i32; 3], spread: [i32; 3]) -> [f64; 3] {
 /// A wall on any axis bounces back; free-slip planes are unfolded: the mirrored component of the
 /// velocity is reversed and the source stays on this side \[B2\].
 #[must_use]
-pub fn resolve(setup: &Setup, at: [usize; 3], i: usize) -> (Source, bool) {
+pub(crate) fn resolve(setup: &Setup, at: [usize; 3], i: usize) -> (Source, bool) {
     let mut upstream = at;
     let mut c = C[i];
     let mut ordinary = true;

@@ -41,7 +41,7 @@ pub fn curvature_velocity<L: Lane>(tangential: &[L; 3], tangent_fluidity: L) -> 
 /// # Verified by
 /// Test `limit_of_curvature`; claim `thesis-run-c` (without it that run blows up within 130 steps).
 #[inline(always)]
-pub fn limited_curvature<L: Lane>(velocity: &[L; 3], gamma_dot: L) -> [L; 3] {
+pub(crate) fn limited_curvature<L: Lane>(velocity: &[L; 3], gamma_dot: L) -> [L; 3] {
     let squared = (velocity[0] * velocity[0] + velocity[1] * velocity[1]) + velocity[2] * velocity[2];
     let speed = squared.sqrt();
     let most = L::splat(0.25) * gamma_dot;
@@ -68,7 +68,7 @@ pub fn limited_curvature<L: Lane>(velocity: &[L; 3], gamma_dot: L) -> [L; 3] {
 /// # Verified by
 /// Claims `couette-start-up`, `poiseuille-newtonian-b3`.
 #[inline(always)]
-pub fn local_curvature<L: Lane>(omega: L, odd_omega: L) -> L {
+pub(crate) fn local_curvature<L: Lane>(omega: L, odd_omega: L) -> L {
     let half = L::splat(0.5);
     // 1/(τ⁺ − ½) = ω/(1 − ω/2): finite at ω = 0.
     let curvature = L::splat(3.0 / 8.0) * (omega / (L::one() - half * omega));
@@ -143,7 +143,7 @@ pub fn tangential<L: Lane>(v: &[L; 3], normal: &[f64; 3]) -> [L; 3] {
 /// # Verified by
 /// Claim `resting-layer-creep`.
 #[must_use]
-pub fn pressure_slope(low: Option<f64>, here: f64, high: Option<f64>) -> f64 {
+pub(crate) fn pressure_slope(low: Option<f64>, here: f64, high: Option<f64>) -> f64 {
     match (low, high) {
         (Some(a), Some(b)) => 0.5 * CS2 * (b - a),
         (Some(a), None) => CS2 * (here - a),

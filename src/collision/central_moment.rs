@@ -8,7 +8,7 @@ use crate::lattice::{Q, SYMMETRIC, pair};
 
 /// Central-moment operator.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CentralMoment {
+pub(crate) struct CentralMoment {
     /// How ω⁻ follows ω⁺.
     pub odd: OddRate,
 }
@@ -57,7 +57,7 @@ impl Collision for CentralMoment {
 /// # Verified by
 /// Claim `sound-wave-damping`.
 #[inline(always)]
-pub fn relaxed_stress<L: Lane>(m: &Moments<L>, omega: L) -> [L; 6] {
+pub(crate) fn relaxed_stress<L: Lane>(m: &Moments<L>, omega: L) -> [L; 6] {
     let keep = L::one() - omega;
     let q = deviator(&m.q);
     six(
@@ -73,7 +73,7 @@ pub fn relaxed_stress<L: Lane>(m: &Moments<L>, omega: L) -> [L; 6] {
 /// # Verified by
 /// Property `inverse_reproduces_moments`.
 #[inline(always)]
-pub fn third_hermite<L: Lane>(h: &[L; Q]) -> [L; 6] {
+pub(crate) fn third_hermite<L: Lane>(h: &[L; Q]) -> [L; 6] {
     let m3 = third(h);
     let j = momentum(h);
     six(
@@ -89,7 +89,7 @@ pub fn third_hermite<L: Lane>(h: &[L; Q]) -> [L; 6] {
 /// # Verified by
 /// Claim `central-moment-galilean`.
 #[inline(always)]
-pub fn third_equilibrium<L: Lane>(m: &Moments<L>, k: usize) -> L {
+pub(crate) fn third_equilibrium<L: Lane>(m: &Moments<L>, k: usize) -> L {
     let [a, b] = THIRD[k];
     m.rho * ((m.u[a] * m.u[a]) * m.u[b])
 }
@@ -101,7 +101,7 @@ pub fn third_equilibrium<L: Lane>(m: &Moments<L>, k: usize) -> L {
 /// # Verified by
 /// Claim `central-moment-galilean`.
 #[inline(always)]
-pub fn third_force<L: Lane>(m: &Moments<L>, k: usize) -> L {
+pub(crate) fn third_force<L: Lane>(m: &Moments<L>, k: usize) -> L {
     let [a, b] = THIRD[k];
     L::splat(2.0) * ((m.u[a] * m.u[b]) * m.force[a]) + (m.u[a] * m.u[a]) * m.force[b]
 }
@@ -113,7 +113,7 @@ pub fn third_force<L: Lane>(m: &Moments<L>, k: usize) -> L {
 /// # Verified by
 /// Claim `central-moment-galilean`.
 #[inline(always)]
-pub fn induced<L: Lane>(u: &[L; 3], tensor: &[L; 6], k: usize) -> L {
+pub(crate) fn induced<L: Lane>(u: &[L; 3], tensor: &[L; 6], k: usize) -> L {
     let [a, b] = THIRD[k];
     L::splat(2.0) * (u[a] * tensor[pair(a, b)]) + u[b] * tensor[a]
 }
@@ -125,7 +125,7 @@ pub fn induced<L: Lane>(u: &[L; 3], tensor: &[L; 6], k: usize) -> L {
 /// # Verified by
 /// Claims `poiseuille-newtonian-magic`, `central-moment-galilean`.
 #[inline(always)]
-pub fn third_departure<L: Lane>(m: &Moments<L>, a: L, k: usize) -> L {
+pub(crate) fn third_departure<L: Lane>(m: &Moments<L>, a: L, k: usize) -> L {
     let departure = (a - third_equilibrium(m, k)) + L::splat(0.5) * third_force(m, k);
     departure - induced(&m.u, &m.q, k)
 }
@@ -137,7 +137,7 @@ pub fn third_departure<L: Lane>(m: &Moments<L>, a: L, k: usize) -> L {
 /// # Verified by
 /// Claims `poiseuille-newtonian-magic`, `central-moment-galilean`.
 #[inline(always)]
-pub fn third_post<L: Lane>(m: &Moments<L>, a: &[L; 6], p: &[L; 6], keep_odd: L) -> [L; 6] {
+pub(crate) fn third_post<L: Lane>(m: &Moments<L>, a: &[L; 6], p: &[L; 6], keep_odd: L) -> [L; 6] {
     six(
         #[inline(always)]
         |k| {
@@ -155,7 +155,7 @@ pub fn third_post<L: Lane>(m: &Moments<L>, a: &[L; 6], p: &[L; 6], keep_odd: L) 
 /// # Verified by
 /// Claim `poiseuille-newtonian-b3`; property `odd_departure_is_what_relaxes`.
 #[inline(always)]
-pub fn co_moving_odd_departure<L: Lane>(h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+pub(crate) fn co_moving_odd_departure<L: Lane>(h: &[L; Q], m: &Moments<L>) -> [L; Q] {
     let zero = L::zero();
     let a = third_hermite(h);
     let own = six(
@@ -173,7 +173,7 @@ pub fn co_moving_odd_departure<L: Lane>(h: &[L; Q], m: &Moments<L>) -> [L; Q] {
 /// # Verified by
 /// Property `conserves_mass_and_momentum`; claim `poiseuille-newtonian-magic`.
 #[inline(always)]
-pub fn rebuild<L: Lane>(m: &Moments<L>, p: &[L; 6], third: &[L; 6]) -> [L; Q] {
+pub(crate) fn rebuild<L: Lane>(m: &Moments<L>, p: &[L; 6], third: &[L; 6]) -> [L; Q] {
     let (u, force) = (&m.u, &m.force);
     let (half, one_third) = (L::splat(0.5), L::splat(1.0 / 3.0));
     let pressure = one_third * m.d_rho;

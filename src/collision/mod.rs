@@ -1,11 +1,11 @@
 //! Collision operators.
 
-pub mod bgk;
-pub mod central_moment;
+pub(crate) mod bgk;
+pub(crate) mod central_moment;
 pub mod forcing_guo;
-pub mod odd_rate;
-pub mod regularised;
-pub mod trt;
+pub(crate) mod odd_rate;
+pub(crate) mod regularised;
+pub(crate) mod trt;
 
 use serde::{Deserialize, Serialize};
 
@@ -14,9 +14,9 @@ use crate::lattice::Q;
 use crate::lattice::moments::Moments;
 
 pub use bgk::Bgk;
-pub use central_moment::CentralMoment;
+pub(crate) use central_moment::CentralMoment;
 pub use odd_rate::OddRate;
-pub use regularised::Regularised;
+pub(crate) use regularised::Regularised;
 pub use trt::Trt;
 
 /// One collision: pre-collision populations to post-collision populations, force included.

@@ -51,7 +51,7 @@ impl OddRate {
     /// # Verified by
     /// Claim `poiseuille-newtonian-magic`; test `limit_unyielded_cell_takes_the_floor`.
     #[inline(always)]
-    pub fn excess<L: Lane>(&self, omega: L) -> L {
+    pub(crate) fn excess<L: Lane>(&self, omega: L) -> L {
         let e = L::one() / omega - L::splat(0.5);
         let wanted = L::splat(self.magic) / e;
         if self.lowered_below > 0.0 {

@@ -12,7 +12,7 @@ use crate::lattice::unroll::six;
 /// Recursive-regularised operator: third and fourth non-equilibrium moments are rebuilt from the
 /// second ones at every step, so no ghost mode survives a collision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Regularised;
+pub(crate) struct Regularised;
 
 impl Collision for Regularised {
     /// a* = e + A1 + ½ s: the recursion of the third Hermite moment from the relaxed stress.

@@ -69,7 +69,7 @@ impl Collision for Trt {
 /// # Verified by
 /// Claim `poiseuille-newtonian-b3`; property `odd_departure_is_what_relaxes`.
 #[inline(always)]
-pub fn raw_odd_departure<L: Lane>(h: &[L; Q], m: &Moments<L>) -> [L; Q] {
+pub(crate) fn raw_odd_departure<L: Lane>(h: &[L; Q], m: &Moments<L>) -> [L; Q] {
     let half = L::splat(0.5);
     let heq = equilibrium(m.d_rho, m.rho, &m.u);
     let source = odd_source(&m.force);

@@ -39,13 +39,13 @@ impl CouplingBooks {
 
     /// Mass: into the fluid over links, out of it into grains, back from them.
     #[must_use]
-    pub fn masses(&self) -> [f64; 3] {
+    pub(crate) fn masses(&self) -> [f64; 3] {
         [self.link_mass.value(), self.covered_mass.value(), self.freed_mass.value()]
     }
 
     /// Momentum, in the same order.
     #[must_use]
-    pub fn momenta(&self) -> [L3; 3] {
+    pub(crate) fn momenta(&self) -> [L3; 3] {
         [self.link_momentum.value(), self.covered_momentum.value(), self.freed_momentum.value()]
     }
 }

@@ -75,7 +75,7 @@ impl Immersed {
     }
 
     /// Takes grains out of the run: their cells become fluid or gas again, and the others are numbered anew.
-    pub fn leave(&mut self, host: &mut dyn Host, keep: &[bool]) {
+    pub(crate) fn leave(&mut self, host: &mut dyn Host, keep: &[bool]) {
         let mut changes = Changes::default();
         for grain in (0..self.grains()).filter(|&grain| !keep[grain]) {
             let freed = self.coverage.clear(grain);

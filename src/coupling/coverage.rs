@@ -10,11 +10,11 @@ use crate::vector::norm_squared;
 use rayon::prelude::*;
 
 /// No grain.
-pub const NOBODY: u32 = u32::MAX;
+pub(crate) const NOBODY: u32 = u32::MAX;
 
 /// What is known of one grain's cells.
 #[derive(Clone, Debug, Default)]
-pub struct Cover {
+pub(crate) struct Cover {
     /// Cells it covers, ascending. A cell inside two grains belongs to the one that came first.
     pub cells: Vec<u32>,
     /// Links from outside into them, ascending.
@@ -29,7 +29,7 @@ pub struct Cover {
 
 /// Changes of one update.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Changes {
+pub(crate) struct Changes {
     /// (cell, grain) newly covered, ascending by cell.
     pub covered: Vec<(u32, u32)>,
     /// (cell, grain) given free, ascending by cell.
@@ -56,7 +56,7 @@ struct Look {
 
 /// Coverage of the whole box.
 #[derive(Clone, Debug)]
-pub struct Coverage {
+pub(crate) struct Coverage {
     /// By cell: the grain that covers it, or [`NOBODY`].
     owner: Vec<u32>,
     covers: Vec<Cover>,
@@ -73,7 +73,7 @@ impl Coverage {
     /// Grain that covers a cell, or [`NOBODY`].
     #[inline]
     #[must_use]
-    pub fn owner(&self, cell: usize) -> u32 {
+    pub(crate) fn owner(&self, cell: usize) -> u32 {
         self.owner[cell]
     }
 
@@ -83,21 +83,15 @@ impl Coverage {
         &self.covers[grain]
     }
 
-    /// How often a grain's cells were looked at again.
-    #[must_use]
-    pub fn looks(&self) -> u64 {
-        self.looks
-    }
-
     /// Cells covered by all grains.
     #[must_use]
-    pub fn covered_cells(&self) -> u64 {
+    pub(crate) fn covered_cells(&self) -> u64 {
         self.covers.iter().map(|cover| cover.cells.len() as u64).sum()
     }
 
     /// Bytes held.
     #[must_use]
-    pub fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         let each = |cover: &Cover| {
             cover.cells.capacity() * 4
                 + cover.links.capacity() * size_of::<Link>()
@@ -109,7 +103,7 @@ impl Coverage {
     }
 
     /// Leaves out all grains that are not kept and numbers the others anew; their cells must have been given free.
-    pub fn retain(&mut self, keep: &[bool]) {
+    pub(crate) fn retain(&mut self, keep: &[bool]) {
         let mut number = 0;
         let numbers: Vec<u32> = keep
             .iter()
@@ -127,7 +121,7 @@ impl Coverage {
     }
 
     /// Gives all cells of a grain free.
-    pub fn clear(&mut self, grain: usize) -> Vec<u32> {
+    pub(crate) fn clear(&mut self, grain: usize) -> Vec<u32> {
         let cells = std::mem::take(&mut self.covers[grain]).cells;
         for &cell in &cells {
             self.owner[cell as usize] = NOBODY;
@@ -137,7 +131,7 @@ impl Coverage {
 
     /// Looks at the grains that have moved far enough, on the threads of the pool it is called in. `balls(grain)`: its
     /// spheres; `moved(grain, seen)`: how far the farthest of them is from where it was at the last look.
-    pub fn update(
+    pub(crate) fn update(
         &mut self,
         setup: &Setup,
         shape: &Box3,

@@ -23,7 +23,7 @@ struct Scratch {
 
 impl Immersed {
     /// Returns populations from all surfaces and finds the forces on all grains; between collision and streaming.
-    pub fn exchange(&mut self, host: &mut dyn Host) {
+    pub(crate) fn exchange(&mut self, host: &mut dyn Host) {
         let force = host.setup().force.at(host.step_number());
         let mut answers = std::mem::take(&mut self.answers);
         answers.resize_with(TURN.min(self.grains()), Returned::default);

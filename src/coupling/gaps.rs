@@ -91,7 +91,7 @@ struct Acting {
 
 /// Gaps of a run.
 #[derive(Clone, Debug)]
-pub struct Gaps {
+pub(crate) struct Gaps {
     rules: Lubrication,
     law: Law,
     list: PairList,
@@ -120,17 +120,17 @@ impl Gaps {
     }
 
     /// Force of the gaps on wall `k`, sum over the grains' steps in the last step of the fluid, N.
-    pub fn on_wall(&self, k: usize) -> V3 {
+    pub(crate) fn on_wall(&self, k: usize) -> V3 {
         self.on_walls.get(k).copied().unwrap_or_default()
     }
 
     /// Forgets the list: grains have left.
-    pub fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.seen.clear();
     }
 
     /// Finds what is close now; whether anything is.
-    pub fn look(&mut self, dem: &Dem, config: &Suspension) -> bool {
+    pub(crate) fn look(&mut self, dem: &Dem, config: &Suspension) -> bool {
         let members = dem.members();
         let dx = config.units.dx_m;
         let margin = MARGIN * dx;

@@ -38,13 +38,13 @@ pub(super) struct Open {
 impl Open {
     /// From the centre of the grain to where the link meets its surface.
     #[inline]
-    pub fn arm(&self) -> L3 {
+    pub(crate) fn arm(&self) -> L3 {
         along(&self.cell, usize::from(self.link.out), self.q)
     }
 
     /// From the centre of the grain to the middle of the link.
     #[inline]
-    pub fn middle(&self) -> L3 {
+    pub(crate) fn middle(&self) -> L3 {
         along(&self.cell, usize::from(self.link.out), 0.5)
     }
 }

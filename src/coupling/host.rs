@@ -7,7 +7,7 @@ use crate::setup::Setup;
 
 /// A cell that a grain has given free.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Uncovered {
+pub(crate) struct Uncovered {
     /// Gas, interface or liquid.
     pub kind: Kind,
     /// Populations before the next collision, f − w; zero in gas.
@@ -18,7 +18,7 @@ pub struct Uncovered {
 
 /// Where a backend keeps one population.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
+pub(crate) struct Place {
     /// Block, or cell.
     pub block: u32,
     /// Place in it.
@@ -26,7 +26,7 @@ pub struct Place {
 }
 
 /// The cells of a run with grains, besides what conversions need of them; covered cells are solid.
-pub trait Host: Cells + Sync {
+pub(crate) trait Host: Cells + Sync {
     /// The set-up.
     fn setup(&self) -> &Setup;
     /// What a wall moving with `u` adds to a half-way link along c_i from a cell of density `rho` \[B1\], with the

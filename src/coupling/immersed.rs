@@ -109,7 +109,7 @@ impl Immersed {
     }
 
     /// Takes the grains' cells out of the fluid as it was drawn; before the ledger is opened.
-    pub fn start(&mut self, host: &mut dyn Host) {
+    pub(crate) fn start(&mut self, host: &mut dyn Host) {
         for (cell, _) in std::mem::take(&mut self.first).covered {
             host.cover(cell as usize);
         }
@@ -123,13 +123,13 @@ impl Immersed {
 
     /// The grains by themselves, SI units.
     #[must_use]
-    pub fn dem(&self) -> &Dem {
+    pub(crate) fn dem(&self) -> &Dem {
         &self.dem
     }
 
     /// What was asked for.
     #[must_use]
-    pub fn config(&self) -> &Suspension {
+    pub(crate) fn config(&self) -> &Suspension {
         &self.config
     }
 
@@ -147,13 +147,13 @@ impl Immersed {
 
     /// Which cells are covered by whom.
     #[must_use]
-    pub fn is_covered(&self, cell: usize) -> bool {
+    pub(crate) fn is_covered(&self, cell: usize) -> bool {
         self.coverage.owner(cell) != super::coverage::NOBODY
     }
 
     /// Cells covered by all grains, and by one.
     #[must_use]
-    pub fn covered_cells(&self, grain: Option<usize>) -> u64 {
+    pub(crate) fn covered_cells(&self, grain: Option<usize>) -> u64 {
         match grain {
             None => self.coverage.covered_cells(),
             Some(grain) => self.coverage.of(grain).cells.len() as u64,
@@ -162,13 +162,13 @@ impl Immersed {
 
     /// Uniform pressure gradient that acts on fluid and grains besides the body force, −∇P, lattice units.
     #[must_use]
-    pub fn gradient(&self) -> L3 {
+    pub(crate) fn gradient(&self) -> L3 {
         self.gradient
     }
 
     /// Why the grains could not go on.
     #[must_use]
-    pub fn failure(&self) -> Option<&DemError> {
+    pub(crate) fn failure(&self) -> Option<&DemError> {
         self.failure.as_ref()
     }
 
@@ -179,15 +179,9 @@ impl Immersed {
         sum / f64::from(self.config.sub_steps.max(1))
     }
 
-    /// How often a grain's cells were looked at again, so far.
-    #[must_use]
-    pub fn looks(&self) -> u64 {
-        self.coverage.looks()
-    }
-
     /// Bytes held, without those of the grains themselves.
     #[must_use]
-    pub fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         self.coverage.bytes() + (self.loads.len() * (size_of::<BodyLoad>() + size_of::<[f64; 6]>())) as u64
     }
 
@@ -261,7 +255,7 @@ impl Immersed {
 
     /// Whether a grain moves as told.
     #[must_use]
-    pub fn is_driven(&self, grain: usize) -> bool {
+    pub(crate) fn is_driven(&self, grain: usize) -> bool {
         self.dem.bodies().inverse_mass[grain] == 0.0
     }
 
@@ -286,7 +280,7 @@ impl Immersed {
 
     /// m g, lattice units.
     #[must_use]
-    pub fn weight(&self, grain: usize) -> L3 {
+    pub(crate) fn weight(&self, grain: usize) -> L3 {
         let units = &self.config.units;
         let g = Self::vector(&self.config.dem.gravity, units.dt_s * units.dt_s / units.dx_m);
         let mass = self.mass(grain);
@@ -295,7 +289,7 @@ impl Immersed {
 
     /// Moments of inertia about the centre, frame of the box, lattice units.
     #[must_use]
-    pub fn inertia(&self, grain: usize) -> [L3; 3] {
+    pub(crate) fn inertia(&self, grain: usize) -> [L3; 3] {
         let (bodies, units) = (self.dem.bodies(), &self.config.units);
         let scale = self.mass_scale() / (units.dx_m * units.dx_m);
         let principal = bodies.inertia[grain] * scale;

@@ -8,7 +8,7 @@ use crate::vector::{dot, norm_squared};
 
 /// A sphere of a grain, lattice units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ball {
+pub(crate) struct Ball {
     /// Centre, inside the box along periodic axes.
     pub centre: L3,
     /// Radius, cells.
@@ -17,7 +17,7 @@ pub struct Ball {
 
 /// A link from a cell outside a grain into a covered cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Link {
+pub(crate) struct Link {
     /// The cell outside.
     pub cell: u32,
     /// Direction in which its populations leave towards the grain.
@@ -32,7 +32,7 @@ pub struct Link {
 
 /// A link from a covered cell to a wall or a fixed solid: no fluid fits between.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Blocked {
+pub(crate) struct Blocked {
     /// The covered cell.
     pub covered: u32,
     /// Direction from the wall into the grain.
@@ -41,7 +41,7 @@ pub struct Blocked {
 
 /// Shape of the box as links see it.
 #[derive(Clone, Debug)]
-pub struct Box3 {
+pub(crate) struct Box3 {
     /// Cells along x, y, z.
     pub extents: [usize; 3],
     /// Whether an axis is periodic.
@@ -66,7 +66,7 @@ impl Box3 {
     /// Coordinates of a cell.
     #[inline]
     #[must_use]
-    pub fn coordinates(&self, cell: usize) -> [usize; 3] {
+    pub(crate) fn coordinates(&self, cell: usize) -> [usize; 3] {
         let [nx, ny, _] = self.extents;
         [cell % nx, (cell / nx) % ny, cell / (nx * ny)]
     }
@@ -81,7 +81,7 @@ impl Box3 {
     /// `to` − `from` by the shortest way along periodic axes.
     #[inline]
     #[must_use]
-    pub fn apart(&self, to: &L3, from: &L3) -> L3 {
+    pub(crate) fn apart(&self, to: &L3, from: &L3) -> L3 {
         std::array::from_fn(|a| {
             let d = to[a] - from[a];
             if self.periodic[a] {
@@ -97,7 +97,7 @@ impl Box3 {
     /// Where population `i` of a cell comes from.
     #[inline]
     #[must_use]
-    pub fn source(&self, setup: &Setup, cell: usize, i: usize) -> Source {
+    pub(crate) fn source(&self, setup: &Setup, cell: usize, i: usize) -> Source {
         let at = self.coordinates(cell);
         let inside = (0..3).all(|a| at[a] > 0 && at[a] + 1 < self.extents[a]);
         if inside {
@@ -122,7 +122,7 @@ impl Box3 {
     /// The cell from which population `out` of a cell comes without being turned by a mirror plane.
     #[inline]
     #[must_use]
-    pub fn straight_behind(&self, setup: &Setup, cell: usize, out: usize) -> Option<u32> {
+    pub(crate) fn straight_behind(&self, setup: &Setup, cell: usize, out: usize) -> Option<u32> {
         match self.source(setup, cell, out) {
             Source::Cell { cell, direction } if usize::from(direction) == out => Some(cell),
             _ => None,
@@ -140,7 +140,7 @@ impl Box3 {
 /// # Verified by
 /// Test `exact_cut_of_a_link`.
 #[must_use]
-pub fn cut(balls: &[(L3, f64)], out: usize) -> f64 {
+pub(crate) fn cut(balls: &[(L3, f64)], out: usize) -> f64 {
     let c = C[out].map(f64::from);
     let length2 = norm_squared(c);
     let mut first = 2.0;

@@ -42,7 +42,7 @@ pub(super) struct Returned {
 
 impl Returned {
     /// Empty, with the room it has.
-    pub fn start(&mut self) {
+    pub(crate) fn start(&mut self) {
         let (mut values, mut gained) = (std::mem::take(&mut self.values), std::mem::take(&mut self.gained));
         values.clear();
         gained.clear();

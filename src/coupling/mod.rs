@@ -44,10 +44,10 @@ pub use crate::setup::suspension::{
     CouplingEquations, GrainRefill, GrainWall, Lubrication, StandardCoupling, Suspension,
 };
 pub use books::CouplingBooks;
-pub use host::{Host, Place, Uncovered};
+pub(crate) use host::{Host, Place, Uncovered};
 pub use immersed::{Immersed, body_force};
 pub use load::BodyLoad;
 pub use report::GrainTotals;
 
 /// A vector in lattice units.
-pub type L3 = [f64; 3];
+pub(crate) type L3 = [f64; 3];

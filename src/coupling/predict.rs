@@ -5,7 +5,7 @@ use nalgebra::{Matrix6, Vector6};
 
 /// Friction of the links: force and torque are `driving` − `matrix` · (U, ω).
 #[derive(Clone, Copy, Debug)]
-pub struct Friction {
+pub(crate) struct Friction {
     /// Force and torque on the grain with its surface at rest.
     pub driving: [f64; 6],
     /// Upper triangle, row by row.
@@ -21,7 +21,7 @@ impl Default for Friction {
 impl Friction {
     /// Adds a link that pushes with `push` − `rate` v · (U, ω) along v = (c, r × c).
     #[inline]
-    pub fn add(&mut self, v: &[f64; 6], push: f64, rate: f64) {
+    pub(crate) fn add(&mut self, v: &[f64; 6], push: f64, rate: f64) {
         let mut k = 0;
         for a in 0..6 {
             self.driving[a] += v[a] * push;
@@ -35,7 +35,7 @@ impl Friction {
 
     /// Z as a matrix.
     #[must_use]
-    pub fn full(&self) -> Matrix6<f64> {
+    pub(crate) fn full(&self) -> Matrix6<f64> {
         let mut full = Matrix6::zeros();
         let mut k = 0;
         for a in 0..6 {
@@ -63,7 +63,7 @@ impl Friction {
 /// # Verified by
 /// Claims `coupled-density-ratios`, `neutral-sphere-at-rest`.
 #[must_use]
-pub fn middle(
+pub(crate) fn middle(
     friction: &Friction,
     mass: f64,
     inertia: &[L3; 3],

@@ -7,7 +7,7 @@ use nalgebra::{Matrix4, Vector4};
 
 /// Sums over the fluid cells around a grain.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Samples {
+pub(crate) struct Samples {
     count: f64,
     /// Σ r and Σ r rᵀ (xx, yy, zz, xy, xz, yz).
     first: L3,
@@ -21,7 +21,7 @@ pub struct Samples {
 
 /// ρ − 1 ≈ mean + slope · r, r from the grain's centre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Fit {
+pub(crate) struct Fit {
     mean: f64,
     slope: L3,
     /// Values it may take.
@@ -35,7 +35,7 @@ const BEYOND: f64 = 0.25;
 impl Samples {
     /// Adds a cell at `r` from the centre.
     #[inline]
-    pub fn add(&mut self, r: &L3, excess: f64) {
+    pub(crate) fn add(&mut self, r: &L3, excess: f64) {
         self.range = match self.count {
             0.0 => [excess; 2],
             _ => [self.range[0].min(excess), self.range[1].max(excess)],
@@ -59,7 +59,7 @@ impl Samples {
     /// # Verified by
     /// Test `exact_linear_pressure`; claim `grain-on-the-bed-weighs-less`.
     #[must_use]
-    pub fn fit(&self) -> Option<Fit> {
+    pub(crate) fn fit(&self) -> Option<Fit> {
         if self.count == 0.0 {
             return None;
         }
@@ -89,7 +89,7 @@ impl Fit {
     /// ρ − 1 at `r` from the centre.
     #[inline]
     #[must_use]
-    pub fn at(&self, r: &L3) -> f64 {
+    pub(crate) fn at(&self, r: &L3) -> f64 {
         let value = self.mean + dot(self.slope, *r);
         // Not `clamp`: a fluid that has blown up must reach the guard, and not a panic here.
         if value < self.range[0] {

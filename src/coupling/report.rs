@@ -19,7 +19,7 @@ pub struct GrainTotals {
 impl Immersed {
     /// What went between fluid and grains so far.
     #[must_use]
-    pub fn books(&self) -> &CouplingBooks {
+    pub(crate) fn books(&self) -> &CouplingBooks {
         &self.books
     }
 
@@ -47,7 +47,7 @@ impl Immersed {
     }
 
     /// Adds the state of the grains to a fingerprint.
-    pub fn add_to_hash(&self, hasher: &mut Hasher) {
+    pub(crate) fn add_to_hash(&self, hasher: &mut Hasher) {
         let bodies = self.dem.bodies();
         for i in 0..bodies.len() {
             let vectors = [

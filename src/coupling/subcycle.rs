@@ -12,7 +12,7 @@ impl Immersed {
     ///
     /// # Errors
     /// The grains could not go on ([`Immersed::failure`]), or one is faster than the fluid may be.
-    pub fn advance(&mut self, host: &mut dyn Host) -> Result<(), Stopped> {
+    pub(crate) fn advance(&mut self, host: &mut dyn Host) -> Result<(), Stopped> {
         let before: Vec<([f64; 6], V3)> = (0..self.grains()).map(|grain| self.momenta_of(grain)).collect();
         let alone = std::mem::take(&mut self.alone);
         let moved = on_pool(&alone, host.pool(), || self.sub_steps());

@@ -40,7 +40,7 @@ pub struct Bodies {
 
 /// One body as an integrator moves it.
 #[derive(Debug)]
-pub struct Body<'a> {
+pub(crate) struct Body<'a> {
     /// Centre of mass, m.
     pub position: &'a mut V3,
     /// m/s.
@@ -95,8 +95,9 @@ impl Bodies {
     }
 
     /// Whether there is none.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.position.is_empty()
+        self.len() == 0
     }
 
     /// Translational kinetic energy of body `i`, J (0 if driven).
@@ -110,7 +111,7 @@ impl Bodies {
     }
 
     /// Angular momentum of body `i` about its centre, kg m²/s.
-    pub fn angular_momentum(&self, i: usize) -> V3 {
+    pub(crate) fn angular_momentum(&self, i: usize) -> V3 {
         if self.shape[i] == Shape::Sphere { self.spin[i] * self.inertia[i].x } else { self.momentum[i] }
     }
 }

@@ -69,7 +69,7 @@ pub(super) fn build(setup: &Setup) -> Result<Dem, DemError> {
 ///
 /// # Errors
 /// The bad input that [`Dem::new`] refuses, except for overlaps and the time step itself.
-pub fn shortest_contact(setup: &Setup) -> Result<Option<Shortest>, DemError> {
+pub(crate) fn shortest_contact(setup: &Setup) -> Result<Option<Shortest>, DemError> {
     let mut free = setup.clone();
     // Any step will do: only the layout is wanted.
     free.time_step_s = Some(f64::MIN_POSITIVE);

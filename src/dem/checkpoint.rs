@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub type Plain = [f64; 3];
 
 /// A touching pair: members, history (normal, root, spring, force, rolling spring, rolling torque).
-pub type PlainPair = (u32, u32, [f64; 12]);
+pub(crate) type PlainPair = (u32, u32, [f64; 12]);
 
 /// A wall contact.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -34,7 +34,7 @@ pub struct PlainWallContact {
 }
 
 /// Gear's six values of one body.
-pub type PlainGear = [Plain; 6];
+pub(crate) type PlainGear = [Plain; 6];
 
 /// The state of a run; together with its set-up it continues bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

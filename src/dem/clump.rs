@@ -104,7 +104,7 @@ impl Clump {
     ///
     /// # Errors
     /// A radius that is not above zero.
-    pub fn with_equivalent_radius(&self, radius: f64) -> Result<Self, DemError> {
+    pub(crate) fn with_equivalent_radius(&self, radius: f64) -> Result<Self, DemError> {
         if !(radius > 0.0 && radius.is_finite()) {
             let name = self.name.clone();
             return Err(DemError::ClumpValue { name, what: "equivalent radius", found: radius });

@@ -110,7 +110,7 @@ pub enum Touching {
 impl Touching {
     /// Number of the grain, the first one of two.
     #[must_use]
-    pub fn grain(&self) -> usize {
+    pub(crate) fn grain(&self) -> usize {
         match *self {
             Self::Grains(grain, _) | Self::Wall { grain, .. } => grain,
         }

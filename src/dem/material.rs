@@ -146,7 +146,7 @@ impl Materials {
     }
 
     /// Properties of the pair `a`, `b`; the last matching exception counts.
-    pub fn properties(&self, a: usize, b: usize) -> PairProperties {
+    pub(crate) fn properties(&self, a: usize, b: usize) -> PairProperties {
         let same = |&&(i, j, _): &&(usize, usize, PairProperties)| (i, j) == (a, b) || (j, i) == (a, b);
         self.pairs.iter().rev().find(same).map_or(self.default_pair, |p| p.2)
     }

@@ -19,30 +19,30 @@
 
 pub mod bodies;
 mod build;
-pub mod checkpoint;
-pub mod clump;
+pub(crate) mod checkpoint;
+pub(crate) mod clump;
 pub mod contact;
-pub mod energy;
+pub(crate) mod energy;
 pub mod error;
 pub mod integrate;
-pub mod material;
+pub(crate) mod material;
 pub mod neighbours;
 pub mod packing;
 mod retain;
-pub mod rotation;
-pub mod setup;
-pub mod simulation;
+pub(crate) mod rotation;
+pub(crate) mod setup;
+pub(crate) mod simulation;
 mod sphere;
-pub mod timestep;
+pub(crate) mod timestep;
 pub mod union_moments;
-pub mod views;
+pub(crate) mod views;
 pub mod walls;
 
 #[cfg(test)]
 mod tests;
 
 pub use bodies::Bodies;
-pub use build::shortest_contact;
+pub(crate) use build::shortest_contact;
 pub use checkpoint::Checkpoint;
 pub use clump::Clump;
 pub use contact::{ContactEquations, StandardContact, restitution};
@@ -50,7 +50,7 @@ pub use energy::{Energies, Ledger};
 pub use error::{DemError, Touching};
 pub use integrate::Integrator;
 pub use material::{Material, Materials, NormalLaw, PairProperties};
-pub use retain::keep_marked;
+pub(crate) use retain::keep_marked;
 pub use setup::{Grain, Period, Setup, Shape};
 pub use simulation::Dem;
 pub use sphere::Sphere;

@@ -4,7 +4,7 @@ use super::Dem;
 use super::bodies::Bodies;
 
 /// Keeps the entries marked in `keep`.
-pub fn keep_marked<T>(list: &mut Vec<T>, keep: &[bool]) {
+pub(crate) fn keep_marked<T>(list: &mut Vec<T>, keep: &[bool]) {
     let mut marks = keep.iter();
     // Entries beyond the marks stay: there are none in the lists of a run.
     list.retain(|_| marks.next().is_none_or(|&kept| kept));

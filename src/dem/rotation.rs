@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Quaternion};
 const ITERATIONS: u32 = 60;
 
 /// Principal moments (ascending) and axes (columns, right-handed) of a symmetric matrix, by Jacobi rotations.
-pub fn principal(matrix: &Matrix3<f64>) -> (V3, Matrix3<f64>) {
+pub(crate) fn principal(matrix: &Matrix3<f64>) -> (V3, Matrix3<f64>) {
     let mut a = *matrix;
     let mut axes = Matrix3::identity();
     for _ in 0..30 {
@@ -44,19 +44,19 @@ pub fn principal(matrix: &Matrix3<f64>) -> (V3, Matrix3<f64>) {
 
 /// ω = Q I⁻¹ Qᵀ L.
 #[inline]
-pub fn spin_of(q: &Orientation, inverse_inertia: &V3, momentum: &V3) -> V3 {
+pub(crate) fn spin_of(q: &Orientation, inverse_inertia: &V3, momentum: &V3) -> V3 {
     q * q.inverse_transform_vector(momentum).component_mul(inverse_inertia)
 }
 
 /// L = Q I Qᵀ ω.
 #[inline]
-pub fn momentum_of(q: &Orientation, inertia: &V3, spin: &V3) -> V3 {
+pub(crate) fn momentum_of(q: &Orientation, inertia: &V3, spin: &V3) -> V3 {
     q * q.inverse_transform_vector(spin).component_mul(inertia)
 }
 
 /// Turns `q` by the constant spin `omega` (frame of the scene) over `dt`: Cayley rotation, second order.
 #[inline]
-pub fn turn(q: &Orientation, omega: &V3, dt: f64) -> Orientation {
+pub(crate) fn turn(q: &Orientation, omega: &V3, dt: f64) -> Orientation {
     let half = omega * (0.5 * dt);
     Orientation::new_normalize(Quaternion::from_parts(1.0, half) * q.into_inner())
 }
@@ -75,7 +75,12 @@ pub fn turn(q: &Orientation, omega: &V3, dt: f64) -> Orientation {
 /// # Verified by
 /// `conserves_free_rotation`, `exact_flip_period`.
 #[inline]
-pub fn rotate_free(q: &Orientation, momentum: &V3, inverse_inertia: &V3, dt: f64) -> Option<Orientation> {
+pub(crate) fn rotate_free(
+    q: &Orientation,
+    momentum: &V3,
+    inverse_inertia: &V3,
+    dt: f64,
+) -> Option<Orientation> {
     let m = q.inverse_transform_vector(momentum);
     let scale = m.norm_squared();
     let mut mid = m;

@@ -6,11 +6,11 @@ use super::material::{Compiled, PairLaw, PairTable};
 
 /// Fewest steps inside the shortest contact; below that a run is refused. At 10 steps a head-on Hertz collision
 /// still keeps its energy to about a percent (see the order tables).
-pub const FEWEST_STEPS: f64 = 10.0;
+pub(crate) const FEWEST_STEPS: f64 = 10.0;
 
 /// The shortest contact of a set-up.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shortest {
+pub(crate) struct Shortest {
     /// Its duration at the design speed, s.
     pub seconds: f64,
     /// Which pair, in words.
@@ -18,7 +18,7 @@ pub struct Shortest {
 }
 
 /// Duration of a contact, s: Hertz's closed form at the given speed, or half a period of the linear oscillator.
-pub fn contact_time(law: &PairLaw, mass: f64, radius: f64, speed: f64) -> f64 {
+pub(crate) fn contact_time(law: &PairLaw, mass: f64, radius: f64, speed: f64) -> f64 {
     match law.normal {
         Compiled::Linear { stiffness, .. } => std::f64::consts::PI * (mass / stiffness).sqrt(),
         Compiled::ViscoElastic { .. } | Compiled::Tsuji { .. } => {
@@ -31,7 +31,7 @@ pub fn contact_time(law: &PairLaw, mass: f64, radius: f64, speed: f64) -> f64 {
 ///
 /// For each material only the lightest and the smallest members can be part of it: t_c rises with m* and falls
 /// with R* only as R*^{−1/5}.
-pub fn shortest(
+pub(crate) fn shortest(
     table: &PairTable,
     members: &[Member],
     wall_materials: &[u32],

@@ -11,7 +11,7 @@ use super::V3;
 use super::sphere::Sphere;
 
 /// Gauss–Legendre nodes per piece used by clumps.
-pub const NODES: usize = 40;
+pub(crate) const NODES: usize = 40;
 /// Above this number of members, points common to three spheres are not used as ends of pieces.
 const TRIPLES_UP_TO: usize = 40;
 const TAU: f64 = 2.0 * std::f64::consts::PI;

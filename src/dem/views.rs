@@ -37,7 +37,7 @@ impl Dem {
 
     /// Force (N) and torque (N m, about the centre, frame of the scene) on every body from outside; they act in
     /// every step until changed. Gravity is not part of them.
-    pub fn external_mut(&mut self) -> (&mut [V3], &mut [V3]) {
+    pub(crate) fn external_mut(&mut self) -> (&mut [V3], &mut [V3]) {
         let n = self.bodies.len();
         let (f, t) = self.external.get_or_insert_with(|| (vec![V3::zeros(); n], vec![V3::zeros(); n]));
         (f, t)

@@ -28,10 +28,10 @@ pub fn wetted_share(neighbour: Kind, fill: f64, neighbour_fill: f64) -> f64 {
 }
 
 /// Stands for φ of liquid in [`share_with`].
-pub const LIQUID: f64 = 2.0;
+pub(crate) const LIQUID: f64 = 2.0;
 
 /// Stands for φ of gas and solids in [`share_with`].
-pub const GAS: f64 = -1.0;
+pub(crate) const GAS: f64 = -1.0;
 
 /// [`wetted_share`] for lanes. `neighbour`: φ′, [`LIQUID`] or [`GAS`].
 ///
@@ -40,7 +40,7 @@ pub const GAS: f64 = -1.0;
 /// # Verified by
 /// Test `exact_share_of_every_kind`.
 #[inline(always)]
-pub fn share_with<L: Lane>(fill: L, neighbour: L) -> L {
+pub(crate) fn share_with<L: Lane>(fill: L, neighbour: L) -> L {
     let partly = L::splat(0.5) * (fill + neighbour);
     let wet = L::select(L::one().less(neighbour), L::one(), partly);
     L::select(neighbour.less(L::zero()), L::zero(), wet)
@@ -73,7 +73,7 @@ pub fn link_mass<L: Lane>(share: L, arriving: L, leaving: L) -> L {
 /// # Verified by
 /// Claims `pool-at-rest`, `film-newtonian`; mutant `reconstruction-at-the-neighbour`.
 #[inline(always)]
-pub fn gas_link<L: Lane>(leaving: L, i: usize, u: &[L; 3]) -> L {
+pub(crate) fn gas_link<L: Lane>(leaving: L, i: usize, u: &[L; 3]) -> L {
     debug_assert_eq!(W[i], W[opposite(i)]);
     let usq = (u[0] * u[0] + u[1] * u[1]) + u[2] * u[2];
     let cu = dot(i, u);

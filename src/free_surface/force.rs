@@ -4,7 +4,7 @@ use crate::setup::SurfaceForce;
 
 /// Share of the new value in the smoothed acceleration: a memory of about 16 steps, several times what
 /// a sound wave needs to cross an interface cell and short against any flow.
-pub const SMOOTHING: f64 = 1.0 / 16.0;
+pub(crate) const SMOOTHING: f64 = 1.0 / 16.0;
 
 /// Force of an interface cell.
 ///
@@ -19,7 +19,12 @@ pub const SMOOTHING: f64 = 1.0 / 16.0;
 /// Claims `pool-at-rest`, `falling-drop-*`.
 #[inline(always)]
 #[must_use]
-pub fn interface_force(rule: SurfaceForce, force: &[f64; 3], fill: f64, acceleration: &[f64; 3]) -> [f64; 3] {
+pub(crate) fn interface_force(
+    rule: SurfaceForce,
+    force: &[f64; 3],
+    fill: f64,
+    acceleration: &[f64; 3],
+) -> [f64; 3] {
     match rule {
         SurfaceForce::Full => *force,
         SurfaceForce::ByFill => force.map(|f| fill * f),
@@ -41,6 +46,6 @@ pub fn interface_force(rule: SurfaceForce, force: &[f64; 3], fill: f64, accelera
 /// Claim `falling-drop-by-fill-and-inertia`.
 #[inline(always)]
 #[must_use]
-pub fn smooth(acceleration: &[f64; 3], change: &[f64; 3]) -> [f64; 3] {
+pub(crate) fn smooth(acceleration: &[f64; 3], change: &[f64; 3]) -> [f64; 3] {
     std::array::from_fn(|a| acceleration[a] + SMOOTHING * (change[a] - acceleration[a]))
 }

@@ -2,7 +2,7 @@
 
 /// Directions that links carry momentum along: at most three that span what all of them span.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Span {
+pub(crate) struct Span {
     rank: u8,
     /// The first direction, or the normal of the plane of two.
     vector: [i32; 3],
@@ -10,7 +10,7 @@ pub struct Span {
 
 impl Span {
     /// Adds a direction.
-    pub fn add(&mut self, c: [i32; 3]) {
+    pub(crate) fn add(&mut self, c: [i32; 3]) {
         match self.rank {
             0 => *self = Self { rank: u8::from(c != [0; 3]), vector: c },
             1 => {
@@ -26,7 +26,7 @@ impl Span {
 
     /// Whether all of space is spanned.
     #[must_use]
-    pub const fn is_full(&self) -> bool {
+    pub(crate) const fn is_full(&self) -> bool {
         self.rank == 3
     }
 
@@ -38,7 +38,7 @@ impl Span {
     /// # Verified by
     /// Test `exact_spans`; claim `isolated-cell`.
     #[must_use]
-    pub fn beside(&self, u: &[f64; 3]) -> f64 {
+    pub(crate) fn beside(&self, u: &[f64; 3]) -> f64 {
         let v = self.vector.map(f64::from);
         let along = v[0] * u[0] + v[1] * u[1] + v[2] * u[2];
         let length2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];

@@ -4,7 +4,7 @@ use super::Kind;
 
 /// Axis of the largest force component; the later of equals.
 #[must_use]
-pub fn axis_of(force: &[f64; 3]) -> usize {
+pub(crate) fn axis_of(force: &[f64; 3]) -> usize {
     let mut axis = 2;
     for a in [1, 0] {
         if force[a].abs() > force[axis].abs() {
@@ -100,7 +100,12 @@ fn lower(fill: &mut [f64], column: &[usize], weight: f64) {
 /// # Verified by
 /// Claim `pool-at-rest`.
 #[must_use]
-pub fn density_excess(extents: [usize; 3], kinds: &[Kind], fill: &[f64], force: &[f64; 3]) -> Vec<f64> {
+pub(crate) fn density_excess(
+    extents: [usize; 3],
+    kinds: &[Kind],
+    fill: &[f64],
+    force: &[f64; 3],
+) -> Vec<f64> {
     let mut excess = vec![0.0; kinds.len()];
     let axis = axis_of(force);
     let weight = force[axis].abs();

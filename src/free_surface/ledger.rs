@@ -9,7 +9,7 @@ const TOO_LARGE: f64 = 68_719_476_736.0;
 /// A sum in fixed point: terms are cut to whole units (towards zero, so that −x gives exactly the opposite)
 /// and then added without rounding. Blocks, threads and backends may add in any order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Sum {
+pub(crate) struct Sum {
     units: i128,
     /// A term was not finite or too large.
     spoilt: bool,
@@ -18,7 +18,7 @@ pub struct Sum {
 impl Sum {
     /// Adds a term; one that is not finite, or 2³⁶ and more, makes the sum NaN.
     #[inline(always)]
-    pub fn add(&mut self, term: f64) {
+    pub(crate) fn add(&mut self, term: f64) {
         if term != 0.0 {
             self.add_times(term, 1);
         }
@@ -26,7 +26,7 @@ impl Sum {
 
     /// Adds the same term `count` times.
     #[inline(always)]
-    pub fn add_times(&mut self, term: f64, count: u64) {
+    pub(crate) fn add_times(&mut self, term: f64, count: u64) {
         let bits = term.to_bits();
         let exponent = (bits >> 52 & 0x7ff) as i32;
         let fraction = (bits & ((1 << 52) - 1)) as i128;
@@ -48,14 +48,14 @@ impl Sum {
     }
 
     /// Adds another sum.
-    pub fn merge(&mut self, other: &Self) {
+    pub(crate) fn merge(&mut self, other: &Self) {
         self.units = self.units.wrapping_add(other.units);
         self.spoilt |= other.spoilt;
     }
 
     /// The sum, rounded once.
     #[must_use]
-    pub fn value(&self) -> f64 {
+    pub(crate) fn value(&self) -> f64 {
         if self.spoilt {
             return f64::NAN;
         }
@@ -66,26 +66,26 @@ impl Sum {
 
 /// Three sums, for a vector.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct VectorSum([Sum; 3]);
+pub(crate) struct VectorSum([Sum; 3]);
 
 impl VectorSum {
     /// Adds a vector.
     #[inline(always)]
-    pub fn add(&mut self, v: &[f64; 3]) {
+    pub(crate) fn add(&mut self, v: &[f64; 3]) {
         for (sum, term) in self.0.iter_mut().zip(v) {
             sum.add(*term);
         }
     }
 
     /// Adds the same vector `count` times.
-    pub fn add_times(&mut self, v: &[f64; 3], count: u64) {
+    pub(crate) fn add_times(&mut self, v: &[f64; 3], count: u64) {
         for (sum, term) in self.0.iter_mut().zip(v) {
             sum.add_times(*term, count);
         }
     }
 
     /// Adds another sum.
-    pub fn merge(&mut self, other: &Self) {
+    pub(crate) fn merge(&mut self, other: &Self) {
         for (sum, term) in self.0.iter_mut().zip(&other.0) {
             sum.merge(term);
         }
@@ -93,7 +93,7 @@ impl VectorSum {
 
     /// The sums.
     #[must_use]
-    pub fn value(&self) -> [f64; 3] {
+    pub(crate) fn value(&self) -> [f64; 3] {
         self.0.map(|sum| sum.value())
     }
 }

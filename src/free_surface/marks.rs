@@ -2,7 +2,7 @@
 
 /// Verdict on an interface cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
+pub(crate) enum Mark {
     /// Stays interface.
     Stay,
     /// Becomes liquid.
@@ -13,7 +13,7 @@ pub enum Mark {
 
 /// What an interface cell touches; itself does not count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Touches {
+pub(crate) struct Touches {
     /// A gas cell.
     pub gas: bool,
     /// A liquid cell.
@@ -36,7 +36,7 @@ pub struct Touches {
 /// Claims `flat-layer-without-flicker`, `isolated-cell`.
 #[inline(always)]
 #[must_use]
-pub fn mark(mass: f64, rho: f64, touches: Touches, margin: f64, lonely: f64) -> Mark {
+pub(crate) fn mark(mass: f64, rho: f64, touches: Touches, margin: f64, lonely: f64) -> Mark {
     if !touches.liquid && !touches.held {
         return Mark::Empty;
     }

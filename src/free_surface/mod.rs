@@ -6,11 +6,11 @@
 
 pub mod conversion;
 pub mod exchange;
-pub mod force;
-pub mod hold;
+pub(crate) mod force;
+pub(crate) mod hold;
 pub mod hydrostatic;
 pub mod ledger;
-pub mod marks;
+pub(crate) mod marks;
 pub mod normal;
 
 /// What a cell is.
@@ -31,7 +31,7 @@ impl Kind {
     /// Liquid or interface: has populations.
     #[inline(always)]
     #[must_use]
-    pub const fn is_fluid(self) -> bool {
+    pub(crate) const fn is_fluid(self) -> bool {
         matches!(self, Self::Liquid | Self::Interface)
     }
 }
@@ -44,7 +44,7 @@ impl Kind {
 /// docs/method.md \[F1\]; 004 Sec 3.2.2.
 /// # Verified by
 /// Claim `flat-layer-without-flicker`.
-pub fn classify<N: IntoIterator<Item = usize>>(
+pub(crate) fn classify<N: IntoIterator<Item = usize>>(
     fill: &[f64],
     is_solid: impl Fn(usize) -> bool,
     neighbours: impl Fn(usize) -> N,

@@ -14,7 +14,7 @@ use crate::lattice::{Q, W};
 /// # Verified by
 /// Test `exact_normal_of_a_slope`.
 #[must_use]
-pub fn outward(fill: &[f64; Q]) -> [f64; 3] {
+pub(crate) fn outward(fill: &[f64; Q]) -> [f64; 3] {
     let weighted = std::array::from_fn(|i| W[i] * fill[i]);
     momentum(&weighted).map(|g| -3.0 * g)
 }

@@ -12,7 +12,7 @@ impl Shape {
     /// Depth of a point below the surface, m: positive inside, never more in magnitude than the distance
     /// to the surface.
     #[must_use]
-    pub fn depth(&self, p: [f64; 3]) -> f64 {
+    pub(crate) fn depth(&self, p: [f64; 3]) -> f64 {
         match self {
             Self::Box { min_m, max_m } => {
                 (0..3).map(|a| least(p[a] - min_m[a], max_m[a] - p[a])).fold(f64::INFINITY, least)
@@ -91,7 +91,7 @@ impl Shape {
 /// `low`: low corner of the cell, m. `dx`: its size, m. `thin`: axes of one cell, along which one point
 /// in the middle is enough because nothing changes.
 #[must_use]
-pub fn covered(shapes: &[&Shape], low: [f64; 3], dx: f64, thin: [bool; 3]) -> f64 {
+pub(crate) fn covered(shapes: &[&Shape], low: [f64; 3], dx: f64, thin: [bool; 3]) -> f64 {
     let centre = low.map(|x| x + 0.5 * dx);
     let radius = 0.5 * dx * 3.0_f64.sqrt();
     let mut near = Vec::new();

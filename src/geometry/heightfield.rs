@@ -20,7 +20,7 @@ pub struct Heightfield {
 impl Heightfield {
     /// Height at a place, m.
     #[must_use]
-    pub fn height(&self, x: f64, y: f64) -> f64 {
+    pub(crate) fn height(&self, x: f64, y: f64) -> f64 {
         let rows = self.heights_m.len();
         let columns = self.heights_m.first().map_or(0, Vec::len);
         if rows == 0 || columns == 0 {
@@ -40,7 +40,7 @@ impl Heightfield {
     /// √(1 + s²) with s a bound of the slope: how much longer a vertical distance is than the distance
     /// to the surface, at most.
     #[must_use]
-    pub fn steepness(&self) -> f64 {
+    pub(crate) fn steepness(&self) -> f64 {
         let mut steps = [0.0_f64; 2];
         for (j, row) in self.heights_m.iter().enumerate() {
             for (i, h) in row.iter().enumerate() {
@@ -55,7 +55,7 @@ impl Heightfield {
 
     /// Least and greatest height, m.
     #[must_use]
-    pub fn range(&self) -> [f64; 2] {
+    pub(crate) fn range(&self) -> [f64; 2] {
         let all = self.heights_m.iter().flatten();
         all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &h| {
             [if h < low { h } else { low }, if h > high { h } else { high }]

@@ -5,6 +5,6 @@ mod heightfield;
 mod polygon;
 mod shape;
 
-pub use combine::covered;
+pub(crate) use combine::covered;
 pub use heightfield::Heightfield;
 pub use shape::{Axis, Bounds, Shape};

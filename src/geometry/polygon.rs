@@ -4,7 +4,7 @@
 /// ray from `p` towards +first coordinate. Edges are half open, so that two polygons that share
 /// an edge never both hold a point of it.
 #[must_use]
-pub fn contains(points: &[[f64; 2]], p: [f64; 2]) -> bool {
+pub(crate) fn contains(points: &[[f64; 2]], p: [f64; 2]) -> bool {
     let mut inside = false;
     for (i, &b) in points.iter().enumerate() {
         let a = points[if i == 0 { points.len() - 1 } else { i - 1 }];
@@ -18,7 +18,7 @@ pub fn contains(points: &[[f64; 2]], p: [f64; 2]) -> bool {
 
 /// Area with sign: positive for counter-clockwise points.
 #[must_use]
-pub fn signed_area(points: &[[f64; 2]]) -> f64 {
+pub(crate) fn signed_area(points: &[[f64; 2]]) -> f64 {
     let mut twice = 0.0;
     for (i, &b) in points.iter().enumerate() {
         let a = points[if i == 0 { points.len() - 1 } else { i - 1 }];
@@ -29,7 +29,7 @@ pub fn signed_area(points: &[[f64; 2]]) -> f64 {
 
 /// Distance of a point to the nearest edge, positive inside.
 #[must_use]
-pub fn depth(points: &[[f64; 2]], p: [f64; 2]) -> f64 {
+pub(crate) fn depth(points: &[[f64; 2]], p: [f64; 2]) -> f64 {
     let mut least = f64::INFINITY;
     for (i, &b) in points.iter().enumerate() {
         let a = points[if i == 0 { points.len() - 1 } else { i - 1 }];
@@ -47,7 +47,7 @@ pub fn depth(points: &[[f64; 2]], p: [f64; 2]) -> f64 {
 /// Area of the part of a polygon inside a rectangle `[low, high]` (Sutherland-Hodgman clipping; edges
 /// that a concave polygon leaves doubled on the rectangle have no area).
 #[must_use]
-pub fn area_within(points: &[[f64; 2]], [low, high]: [[f64; 2]; 2]) -> f64 {
+pub(crate) fn area_within(points: &[[f64; 2]], [low, high]: [[f64; 2]; 2]) -> f64 {
     let mut clipped = points.to_vec();
     for axis in [0, 1] {
         clipped = clip(&clipped, axis, |x| x - low[axis]);

@@ -25,7 +25,7 @@ impl Axis {
 
     /// 0, 1 or 2.
     #[must_use]
-    pub fn index(self) -> usize {
+    pub(crate) fn index(self) -> usize {
         match self {
             Self::X => 0,
             Self::Y => 1,
@@ -35,7 +35,7 @@ impl Axis {
 
     /// The axis as a letter.
     #[must_use]
-    pub fn letter(self) -> char {
+    pub(crate) fn letter(self) -> char {
         match self {
             Self::X => 'x',
             Self::Y => 'y',
@@ -45,7 +45,7 @@ impl Axis {
 
     /// The two other axes, in alphabetical order.
     #[must_use]
-    pub fn others(self) -> [usize; 2] {
+    pub(crate) fn others(self) -> [usize; 2] {
         match self {
             Self::X => [1, 2],
             Self::Y => [0, 2],
@@ -166,7 +166,7 @@ impl Bounds {
 impl Shape {
     /// Whether a point (m) is inside.
     #[must_use]
-    pub fn contains(&self, p: [f64; 3]) -> bool {
+    pub(crate) fn contains(&self, p: [f64; 3]) -> bool {
         match self {
             Self::Box { min_m, max_m } => (0..3).all(|a| min_m[a] <= p[a] && p[a] < max_m[a]),
             Self::Cylinder { point_m, direction, radius_m, length_m } => {
@@ -198,7 +198,7 @@ impl Shape {
     /// Smallest axis-aligned box around the shape (for an oblique finite cylinder: around its
     /// two end discs' enclosing balls).
     #[must_use]
-    pub fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         match self {
             Self::Box { min_m, max_m } => Bounds { min: *min_m, max: *max_m },
             Self::Sphere { centre_m, radius_m } => {
@@ -254,7 +254,7 @@ impl Shape {
 
     /// Area of a polygon's cross-section; `None` for other shapes.
     #[must_use]
-    pub fn polygon_area(&self) -> Option<f64> {
+    pub(crate) fn polygon_area(&self) -> Option<f64> {
         match self {
             Self::Polygon { points_m, .. } => Some(polygon::signed_area(points_m).abs()),
             _ => None,

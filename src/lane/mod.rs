@@ -12,7 +12,7 @@ mod dual;
 mod pack;
 pub mod powers;
 mod single;
-pub mod streaming;
+pub(crate) mod streaming;
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -10,12 +10,12 @@
 /// Eight numbers, as long and as aligned as a cache line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
-pub struct Line(pub [f64; 8]);
+pub(crate) struct Line(pub [f64; 8]);
 
 impl Line {
     /// The same number eight times.
     #[must_use]
-    pub const fn splat(x: f64) -> Self {
+    pub(crate) const fn splat(x: f64) -> Self {
         Self([x; 8])
     }
 }
@@ -25,7 +25,7 @@ impl Line {
 /// The values are those of `*to = Line(*from)`. Before another thread may read the line, the thread
 /// that wrote it must call [`fence`]: without it the reader may see the values from before.
 #[inline(always)]
-pub fn store_line_past_cache(to: &mut Line, from: &[f64; 8]) {
+pub(crate) fn store_line_past_cache(to: &mut Line, from: &[f64; 8]) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_mm_set_pd, _mm_stream_pd};
@@ -46,7 +46,7 @@ pub fn store_line_past_cache(to: &mut Line, from: &[f64; 8]) {
 /// Orders all stores past the cache of this thread before its later stores. To be called before the
 /// lines are handed to another thread.
 #[inline]
-pub fn fence() {
+pub(crate) fn fence() {
     #[cfg(target_arch = "x86_64")]
     {
         // SAFETY: SSE is part of x86-64; the instruction has no operands.

@@ -6,7 +6,7 @@
 
 pub mod equilibrium;
 pub mod moments;
-pub mod unroll;
+pub(crate) mod unroll;
 
 /// Number of velocities.
 pub const Q: usize = 19;
@@ -81,15 +81,15 @@ pub const fn opposite(i: usize) -> usize {
 
 /// Index of the velocity `c`; components must be in −1..=1 and at most two of them non-zero.
 #[must_use]
-pub fn direction(c: [i32; 3]) -> Option<usize> {
+pub(crate) fn direction(c: [i32; 3]) -> Option<usize> {
     C.iter().position(|&v| v == c)
 }
 
 /// Order of the six entries of a symmetric tensor: xx, yy, zz, xy, xz, yz.
-pub const SYMMETRIC: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
+pub(crate) const SYMMETRIC: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
 
 /// Entry of a symmetric tensor for the pair (a, b).
 #[must_use]
-pub const fn pair(a: usize, b: usize) -> usize {
+pub(crate) const fn pair(a: usize, b: usize) -> usize {
     if a == b { a } else { a + b + 2 }
 }

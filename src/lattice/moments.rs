@@ -103,7 +103,7 @@ pub fn third<L: Lane>(h: &[L; Q]) -> [L; 6] {
 }
 
 /// The six third moments (a, b): Σ c_a² c_b f.
-pub const THIRD: [[usize; 2]; 6] = [[0, 1], [0, 2], [1, 0], [1, 2], [2, 0], [2, 1]];
+pub(crate) const THIRD: [[usize; 2]; 6] = [[0, 1], [0, 2], [1, 0], [1, 2], [2, 0], [2, 1]];
 
 /// Q = Π^neq + ½(uF + Fu), with its trace \[Y1\].
 ///

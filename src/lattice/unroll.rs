@@ -9,19 +9,19 @@ use super::Q;
 
 /// `[f(0), f(1), f(2)]`.
 #[inline(always)]
-pub fn three<T>(f: impl Fn(usize) -> T) -> [T; 3] {
+pub(crate) fn three<T>(f: impl Fn(usize) -> T) -> [T; 3] {
     [f(0), f(1), f(2)]
 }
 
 /// `[f(0), …, f(5)]`.
 #[inline(always)]
-pub fn six<T>(f: impl Fn(usize) -> T) -> [T; 6] {
+pub(crate) fn six<T>(f: impl Fn(usize) -> T) -> [T; 6] {
     [f(0), f(1), f(2), f(3), f(4), f(5)]
 }
 
 /// `[f(0), …, f(18)]`: one entry per lattice direction.
 #[inline(always)]
-pub fn directions<T>(mut f: impl FnMut(usize) -> T) -> [T; Q] {
+pub(crate) fn directions<T>(mut f: impl FnMut(usize) -> T) -> [T; Q] {
     [
         f(0),
         f(1),

@@ -48,7 +48,7 @@ impl Series {
     /// The table as text: `name [unit]` headers, numbers in the shortest form that reads back to
     /// the same bits.
     #[must_use]
-    pub fn to_text(&self) -> String {
+    pub(crate) fn to_text(&self) -> String {
         let header: Vec<String> = self.columns.iter().map(|c| format!("{} [{}]", c.name, c.unit)).collect();
         let mut out = header.join(",");
         out.push('\n');

@@ -8,7 +8,7 @@ use super::xml_escape;
 
 /// A sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Disc {
+pub(crate) struct Disc {
     /// Centre, m.
     pub centre: [f64; 2],
     /// Radius, m.
@@ -21,7 +21,7 @@ pub struct Disc {
 
 /// Spheres in the order they are drawn: later ones hide earlier ones.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Discs {
+pub(crate) struct Discs {
     /// Heading.
     pub title: String,
     /// Of the value.
@@ -46,7 +46,7 @@ const TEXT: &str = "font-family=\"sans-serif\" fill=\"#282828\"";
 
 /// Draws the discs, both axes to the same scale.
 #[must_use]
-pub fn draw(picture: &Discs) -> String {
+pub(crate) fn draw(picture: &Discs) -> String {
     let (mut low, mut high) = ([0.0_f64; 2], picture.size_m);
     let shown = || picture.discs.iter().filter(|d| d.centre.iter().all(|x| x.is_finite()));
     for disc in shown().filter(|d| !d.driven) {

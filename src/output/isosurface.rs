@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 /// Values and vectors at the points of a grid; x fastest.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Grid {
+pub(crate) struct Grid {
     /// Coordinates of the planes of points along each axis, m; increasing.
     pub planes: [Vec<f64>; 3],
     /// The field.
@@ -33,7 +33,7 @@ const TETRAHEDRA: [[usize; 4]; 6] =
 
 /// The surface where the field equals `level`; larger values lie behind it.
 #[must_use]
-pub fn surface(grid: &Grid, level: f64) -> Mesh {
+pub(crate) fn surface(grid: &Grid, level: f64) -> Mesh {
     let mut builder = Builder { grid, level, mesh: Mesh::default(), corners: HashMap::new() };
     let [nx, ny, nz] = [0, 1, 2].map(|a| grid.planes[a].len());
     for k in 1..nz {
@@ -116,7 +116,8 @@ impl Builder<'_> {
 impl Mesh {
     /// Volume behind a closed mesh, m³.
     #[must_use]
-    pub fn volume(&self) -> f64 {
+    #[cfg(test)]
+    fn volume(&self) -> f64 {
         let corner = |c: u32| self.points[c as usize];
         let six = self.triangles.iter().map(|&[a, b, c]| dot(corner(a), cross(corner(b), corner(c))));
         six.sum::<f64>() / 6.0

@@ -6,13 +6,13 @@ use std::path::PathBuf;
 
 pub mod atomic;
 pub mod csv;
-pub mod discs;
+pub(crate) mod discs;
 pub mod isosurface;
 pub mod number;
-pub mod picture;
+pub(crate) mod picture;
 pub mod plot;
 pub mod progress;
-pub mod pvd;
+pub(crate) mod pvd;
 pub mod svg;
 pub mod table;
 mod ticks;

@@ -7,7 +7,7 @@ use super::{OutputError, xml_escape};
 
 /// A two-dimensional slice; arrays hold one entry per cell, the first axis fastest.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub(crate) struct Picture {
     /// Heading.
     pub title: String,
     /// What the colours show.
@@ -53,7 +53,7 @@ const TOP: f64 = 44.0;
 ///
 /// # Errors
 /// [`OutputError::Length`] when an array does not fit the extents.
-pub fn draw(picture: &Picture) -> Result<String, OutputError> {
+pub(crate) fn draw(picture: &Picture) -> Result<String, OutputError> {
     let cells = picture.extents[0] * picture.extents[1];
     let arrays = [
         ("values", picture.values.len(), false),

@@ -7,7 +7,7 @@ use super::{OutputError, atomic, xml_escape};
 
 /// Snapshots in the order of time.
 #[derive(Clone, Debug, Default)]
-pub struct Collection {
+pub(crate) struct Collection {
     entries: Vec<(f64, String)>,
 }
 
@@ -19,7 +19,7 @@ impl Collection {
 
     /// The file's text.
     #[must_use]
-    pub fn to_xml(&self) -> String {
+    pub(crate) fn to_xml(&self) -> String {
         let mut out = String::from(
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",

@@ -13,7 +13,7 @@ use super::plot::{Plot, Series, Style};
 use super::ticks::Scale;
 
 /// Width and height of every figure, in pixels.
-pub const SIZE: (u32, u32) = (720, 480);
+pub(crate) const SIZE: (u32, u32) = (720, 480);
 
 const PALETTE: [RGBColor; 7] = [
     RGBColor(0, 114, 178),

@@ -32,12 +32,12 @@ impl Scale {
     }
 
     /// Where a value lies on this axis; `None` if it cannot be shown.
-    pub fn place(&self, value: f64) -> Option<f64> {
+    pub(crate) fn place(&self, value: f64) -> Option<f64> {
         coordinate(self.log, value)
     }
 
     /// Label of the tick nearest to a coordinate.
-    pub fn label(&self, at: f64) -> String {
+    pub(crate) fn label(&self, at: f64) -> String {
         let nearest = self.ticks.iter().min_by(|a, b| (a.0 - at).abs().total_cmp(&(b.0 - at).abs()));
         nearest.map_or_else(String::new, |(_, label)| label.clone())
     }

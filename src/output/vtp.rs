@@ -193,6 +193,6 @@ pub fn write(path: &Path, mesh: &Mesh, name: &str, time_s: f64) -> Result<(), Ou
 
 /// The file of a mesh with the vector it carries under `name`.
 #[must_use]
-pub fn of_mesh<'a>(mesh: &'a Mesh, name: &str, time_s: f64) -> PolyData<'a> {
+pub(crate) fn of_mesh<'a>(mesh: &'a Mesh, name: &str, time_s: f64) -> PolyData<'a> {
     PolyData::new(&mesh.points, Cells::Triangles(&mesh.triangles), time_s).at_points(name, &mesh.vectors)
 }

@@ -27,13 +27,13 @@ pub struct Cells {
 
 /// Cells along each axis.
 #[must_use]
-pub fn extents(domain: &Domain) -> [usize; 3] {
+pub(crate) fn extents(domain: &Domain) -> [usize; 3] {
     std::array::from_fn(|a| (domain.size_m[a] / domain.spacing_m).round() as usize)
 }
 
 /// Fills the box.
 #[must_use]
-pub fn fill(facts: &Facts) -> Cells {
+pub(crate) fn fill(facts: &Facts) -> Cells {
     let scene = facts.scene;
     let extents = extents(&scene.domain);
     let shapes: Vec<(&Shape, bool)> = scene.solids.iter().map(|s| (&s.shape, s.invert)).collect();
@@ -72,7 +72,7 @@ fn paint([nx, ny, nz]: [usize; 3], dx: f64, shapes: &[(&Shape, bool)]) -> Vec<u8
 
 /// Whether a shape holds at least one cell centre of the box.
 #[must_use]
-pub fn holds_a_cell(shape: &Shape, invert: bool, domain: &Domain) -> bool {
+pub(crate) fn holds_a_cell(shape: &Shape, invert: bool, domain: &Domain) -> bool {
     paint(extents(domain), domain.spacing_m, &[(shape, invert)]).contains(&1)
 }
 

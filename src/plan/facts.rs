@@ -5,7 +5,7 @@ use crate::scene::force::Forces;
 use crate::scene::{Boundary, Scene};
 
 /// A scene with what follows from it.
-pub struct Facts<'a> {
+pub(crate) struct Facts<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// What acts on the fluid.
@@ -37,24 +37,24 @@ impl<'a> Facts<'a> {
 
     /// Flow curve of the fluid, SI units.
     #[must_use]
-    pub fn curve(&self) -> &dyn FlowCurve {
+    pub(crate) fn curve(&self) -> &dyn FlowCurve {
         &*self.curves[0]
     }
 
     /// Flow curves of all fluids, SI units.
-    pub fn curves(&self) -> impl Iterator<Item = &dyn FlowCurve> {
+    pub(crate) fn curves(&self) -> impl Iterator<Item = &dyn FlowCurve> {
         self.curves.iter().map(|curve| &**curve)
     }
 
     /// Whether any fluid can be rigid.
     #[must_use]
-    pub fn any_plug(&self) -> bool {
+    pub(crate) fn any_plug(&self) -> bool {
         self.curves().any(FlowCurve::has_plug)
     }
 
     /// Whether no fluid's viscosity depends on the flow.
     #[must_use]
-    pub fn is_newtonian(&self) -> bool {
+    pub(crate) fn is_newtonian(&self) -> bool {
         self.laws.iter().all(|law| law.constant_tau().is_some())
     }
 }

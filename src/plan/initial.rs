@@ -19,7 +19,12 @@ struct Wave {
 
 /// The initial flow of a scene, or `None` for rest at uniform pressure.
 #[must_use]
-pub fn initial_flow(facts: &Facts, units: &Units, cells: &Cells, force: &[f64; 3]) -> Option<InitialFlow> {
+pub(crate) fn initial_flow(
+    facts: &Facts,
+    units: &Units,
+    cells: &Cells,
+    force: &[f64; 3],
+) -> Option<InitialFlow> {
     let scene = facts.scene;
     let extents = cells.extents;
     let flow = scene.fluid.initial_velocity;

@@ -17,7 +17,7 @@ use crate::units::Units;
 
 /// The set-up of a scene.
 #[must_use]
-pub fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
+pub(crate) fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
     let scene = facts.scene;
     let mut setup = Setup::periodic(cells.extents, facts.laws[0].to_lattice(units));
     setup.faces = facts.faces.map(|faces| faces.map(|face| lower_face(face, units)));
@@ -53,7 +53,7 @@ pub fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
 
 /// The rules of the surface with defaults filled in.
 #[must_use]
-pub fn free_surface(rules: SurfaceRules, fill: Vec<f64>) -> FreeSurface {
+pub(crate) fn free_surface(rules: SurfaceRules, fill: Vec<f64>) -> FreeSurface {
     let default = FreeSurface::new(fill);
     FreeSurface {
         force: match rules.gravity {
@@ -98,7 +98,7 @@ fn solid_motion(scene: &Scene, units: &Units) -> Vec<SolidMotion> {
 
 /// The collision operator with defaults filled in.
 #[must_use]
-pub fn collision(facts: &Facts) -> CollisionChoice {
+pub(crate) fn collision(facts: &Facts) -> CollisionChoice {
     let scene = facts.scene;
     let choice = &scene.numerics.collision;
     let operator = operator(facts);
@@ -117,7 +117,7 @@ pub fn collision(facts: &Facts) -> CollisionChoice {
 /// In a plug only central moments keep the stress of an unyielded cell honest \[K3\]. Around grains in a Newtonian fluid
 /// two relaxation times do better: the drag does not depend on the viscosity, and fast grains stay stable.
 #[must_use]
-pub fn operator(facts: &Facts) -> Operator {
+pub(crate) fn operator(facts: &Facts) -> Operator {
     let two_rates = facts.scene.grains.is_some() && facts.is_newtonian();
     let default = if two_rates { Operator::Trt } else { Operator::CentralMoment };
     facts.scene.numerics.collision.operator.unwrap_or(default)
@@ -125,7 +125,7 @@ pub fn operator(facts: &Facts) -> Operator {
 
 /// The yield treatment with its limits as relaxation times.
 #[must_use]
-pub fn yield_treatment(choice: &YieldChoice, units: &Units) -> YieldTreatment {
+pub(crate) fn yield_treatment(choice: &YieldChoice, units: &Units) -> YieldTreatment {
     match choice {
         YieldChoice::Exact => YieldTreatment::Exact,
         YieldChoice::ImplicitClamped(limits) => {

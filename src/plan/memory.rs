@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::coupled::added_bytes;
-pub use super::text::human;
+pub(crate) use super::text::human;
 use crate::scene::{Scene, SurfaceGravity, YieldChoice};
 use crate::setup::{FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
 pub use crate::solver::boundary_cells::boundary_cells;
@@ -73,7 +73,7 @@ impl Prediction {
 }
 
 /// Density, velocity, stress, shear rate and relaxation rate while fields are written.
-pub const FIELDS: u64 = (1 + 3 + 6 + 1 + 1) * 8;
+pub(crate) const FIELDS: u64 = (1 + 3 + 6 + 1 + 1) * 8;
 /// Fill and kind while fields are written.
 const SURFACE_FIELDS: u64 = 8 + 1;
 /// Pressure, velocity, stress and shear rate in SI units, and four marks, while a picture of the box is
@@ -99,7 +99,7 @@ pub fn predict(setup: &Setup, layout: Layout) -> Prediction {
 
 /// What each feature of a set-up costs.
 #[must_use]
-pub fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
+pub(crate) fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
     let cells = setup.cells() as u64;
     let item = |what, part, bytes: u64| Item {
         what,
@@ -169,7 +169,7 @@ fn every_cell(setup: &Setup, item: &dyn Fn(&'static str, Part, u64) -> Item) -> 
 /// Bytes per cell of the box that are certain before anything is allocated: the features the scene asks
 /// for without walls, or with blocks what the plan itself needs.
 #[must_use]
-pub fn least_bytes_per_cell(scene: &Scene, layout: Layout) -> u64 {
+pub(crate) fn least_bytes_per_cell(scene: &Scene, layout: Layout) -> u64 {
     let numbers = u64::from(!scene.solids.is_empty()) + u64::from(!scene.layers.is_empty());
     let free = scene.fluid.initial.is_some();
     let inertia = scene

@@ -75,7 +75,7 @@ impl Plan {
     ///
     /// # Errors
     /// As [`Plan::new`].
-    pub fn for_layout(scene: &Scene, layout: Layout) -> Result<Self, PlanError> {
+    pub(crate) fn for_layout(scene: &Scene, layout: Layout) -> Result<Self, PlanError> {
         Self::with_layout(scene, layout, memory::available())
     }
 

@@ -9,7 +9,7 @@ use crate::scene::{BodyForce, Boundary, InitialVelocity, Scene};
 
 /// Expected scales, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scales {
+pub(crate) struct Scales {
     /// Largest velocity, m/s; 0 when nothing moves.
     pub velocity: f64,
     /// Length of the Reynolds number, m: the gap between walls, else the longest edge.
@@ -24,7 +24,7 @@ pub struct Scales {
 
 /// Scales of a scene.
 #[must_use]
-pub fn scales(facts: &Facts, cells: &Cells) -> Scales {
+pub(crate) fn scales(facts: &Facts, cells: &Cells) -> Scales {
     let scene = facts.scene;
     let dx = scene.domain.spacing_m;
     let length = if let Some(pool) = &cells.pool {

@@ -6,7 +6,7 @@ use crate::scene::FillLevel;
 
 /// How the fluid lies at time 0, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pool {
+pub(crate) struct Pool {
     /// The axis along which the force is strongest.
     pub up: Axis,
     /// Whether the force points towards smaller coordinates of that axis.
@@ -25,7 +25,7 @@ pub struct Pool {
 
 /// The shape of a fill level: everything on the side towards which gravity pulls.
 #[must_use]
-pub fn level_shape(facts: &Facts, level: &FillLevel) -> Shape {
+pub(crate) fn level_shape(facts: &Facts, level: &FillLevel) -> Shape {
     let axis = level.axis.or_else(|| facts.forces.up_axis()).unwrap_or(Axis::Z);
     let pull = facts.forces.extremes[0][axis.index()];
     let (mut point_m, mut normal) = ([0.0; 3], [0.0; 3]);
@@ -36,7 +36,7 @@ pub fn level_shape(facts: &Facts, level: &FillLevel) -> Shape {
 
 /// Fill of every cell at time 0, 0 in solids; `None` without a free surface.
 #[must_use]
-pub fn fill(facts: &Facts, extents: [usize; 3], solids: &[u8]) -> Option<Vec<f64>> {
+pub(crate) fn fill(facts: &Facts, extents: [usize; 3], solids: &[u8]) -> Option<Vec<f64>> {
     let initial = facts.scene.fluid.initial.as_ref()?;
     let level = initial.fill_level.as_ref().map(|level| level_shape(facts, level));
     let shapes: Vec<&Shape> = level.iter().chain(initial.shapes.iter().map(|part| &part.shape)).collect();
@@ -45,7 +45,7 @@ pub fn fill(facts: &Facts, extents: [usize; 3], solids: &[u8]) -> Option<Vec<f64
 
 /// Share of every cell inside any of the shapes, 0 in solids.
 #[must_use]
-pub fn shares(shapes: &[&Shape], extents: [usize; 3], dx: f64, solids: &[u8]) -> Vec<f64> {
+pub(crate) fn shares(shapes: &[&Shape], extents: [usize; 3], dx: f64, solids: &[u8]) -> Vec<f64> {
     let [nx, ny, nz] = extents;
     let thin = extents.map(|n| n == 1);
     let mut fill = Vec::with_capacity(nx * ny * nz);
@@ -63,7 +63,7 @@ pub fn shares(shapes: &[&Shape], extents: [usize; 3], dx: f64, solids: &[u8]) ->
 
 /// Depths and falls of a fill.
 #[must_use]
-pub fn pool(facts: &Facts, extents: [usize; 3], solids: &[u8], fill: &[f64]) -> Pool {
+pub(crate) fn pool(facts: &Facts, extents: [usize; 3], solids: &[u8], fill: &[f64]) -> Pool {
     let dx = facts.scene.domain.spacing_m;
     let (up, down_is_low) = (facts.forces.up, facts.forces.down_is_low);
     let solid = |cell: usize| solids.get(cell).is_some_and(|&s| s != 0);

@@ -61,7 +61,7 @@ impl FromStr for Target {
 impl Target {
     /// As a share of the whole.
     #[must_use]
-    pub const fn share(self) -> f64 {
+    pub(crate) const fn share(self) -> f64 {
         self.0
     }
 }
@@ -151,7 +151,7 @@ pub fn quote(scene: &Scene, plan: &Plan, target: Target) -> Result<Quote, serde_
 
 /// What another table says about a scene and its plan.
 #[must_use]
-pub fn quote_from(work: &Work, scene: &Scene, plan: &Plan, target: Target) -> Quote {
+pub(crate) fn quote_from(work: &Work, scene: &Scene, plan: &Plan, target: Target) -> Quote {
     let facts = Facts::of(scene);
     let cells = cells::fill(&facts);
     let answer = match case_of(&facts, &plan.numbers, &cells) {

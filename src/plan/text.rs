@@ -50,7 +50,7 @@ pub(super) fn short(value: f64) -> String {
 
 /// A number of bytes for people.
 #[must_use]
-pub fn human(bytes: u64) -> String {
+pub(crate) fn human(bytes: u64) -> String {
     let units = [("GiB", 1_u64 << 30), ("MiB", 1 << 20), ("KiB", 1 << 10)];
     match units.into_iter().find(|&(_, unit)| bytes >= unit) {
         Some((name, unit)) => format!("{:.2} {name}", bytes as f64 / unit as f64),

@@ -49,7 +49,7 @@ pub enum StepRule {
 impl StepRule {
     /// One line for people.
     #[must_use]
-    pub fn sentence(self) -> &'static str {
+    pub(crate) fn sentence(self) -> &'static str {
         match self {
             Self::Given => "given by `numerics.time_step_s`",
             Self::RelaxationTime => "from `numerics.relaxation_time` of the plastic viscosity",
@@ -81,7 +81,7 @@ impl StepRule {
 
     /// The JSON path to blame.
     #[must_use]
-    pub fn path(self) -> &'static str {
+    pub(crate) fn path(self) -> &'static str {
         match self {
             Self::Given => "numerics.time_step_s",
             Self::RelaxationTime => "numerics.relaxation_time",
@@ -97,7 +97,7 @@ impl StepRule {
 
     /// Whether the scene left the choice to `plan`.
     #[must_use]
-    pub fn chosen(self) -> bool {
+    pub(crate) fn chosen(self) -> bool {
         !matches!(self, Self::Given | Self::RelaxationTime | Self::TargetMach)
     }
 }
@@ -105,7 +105,7 @@ impl StepRule {
 /// Viscosity without yield stress at the reference shear rate, Pa s; `None` when the law has no
 /// such scale.
 #[must_use]
-pub fn reference_viscosity(facts: &Facts, scales: &Scales) -> Option<f64> {
+pub(crate) fn reference_viscosity(facts: &Facts, scales: &Scales) -> Option<f64> {
     let curve = facts.curve();
     curve.constant_plastic_viscosity().or_else(|| {
         // At rest the yield stress sets the rate: the viscous stress is as large.
@@ -119,7 +119,11 @@ pub fn reference_viscosity(facts: &Facts, scales: &Scales) -> Option<f64> {
 ///
 /// # Errors
 /// Neither a velocity nor a viscosity is known.
-pub fn choose(facts: &Facts, scales: &Scales, pool: Option<&Pool>) -> Result<(f64, StepRule), PlanProblem> {
+pub(crate) fn choose(
+    facts: &Facts,
+    scales: &Scales,
+    pool: Option<&Pool>,
+) -> Result<(f64, StepRule), PlanProblem> {
     let scene = facts.scene;
     let dx = scene.domain.spacing_m;
     let rho = scene.fluid.density_kg_per_m3;
@@ -176,7 +180,7 @@ fn free(facts: &Facts, scales: &Scales, pool: Option<&Pool>, tau: f64, viscosity
 /// Δt with another aim for τ of the plastic viscosity, whatever the scene gives; `None` when the law has no
 /// viscosity of its own.
 #[must_use]
-pub fn with_tau(facts: &Facts, scales: &Scales, pool: Option<&Pool>, tau: f64) -> Option<f64> {
+pub(crate) fn with_tau(facts: &Facts, scales: &Scales, pool: Option<&Pool>, tau: f64) -> Option<f64> {
     let viscosity = reference_viscosity(facts, scales)?;
     Some(free(facts, scales, pool, tau, viscosity).0)
 }
@@ -211,6 +215,6 @@ fn duration(scene: &Scene) -> f64 {
 
 /// Units of a scene at a time step.
 #[must_use]
-pub fn units(scene: &Scene, dt: f64) -> Units {
+pub(crate) fn units(scene: &Scene, dt: f64) -> Units {
     Units::new(scene.domain.spacing_m, dt, scene.fluid.density_kg_per_m3)
 }

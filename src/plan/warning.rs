@@ -218,7 +218,7 @@ impl Warning {
     /// Whether a warning about grains by themselves also holds for grains in a fluid, which holds them and has a cost
     /// of its own.
     #[must_use]
-    pub const fn holds_in_a_fluid(&self) -> bool {
+    pub(crate) const fn holds_in_a_fluid(&self) -> bool {
         !matches!(self, Self::FallForEver | Self::Days { .. })
     }
 }

@@ -10,16 +10,16 @@
 ///
 /// # Source
 /// Bagnold 1954, Proc. R. Soc. Lond. A 225, 49-63, doi 10.1098/rspa.1954.0186.
-pub const MACRO_VISCOUS_BELOW: f64 = 40.0;
+pub(crate) const MACRO_VISCOUS_BELOW: f64 = 40.0;
 
 /// Smallest Bagnold number of the grain-inertia regime.
 ///
 /// # Source
 /// As [`MACRO_VISCOUS_BELOW`].
-pub const GRAIN_INERTIA_ABOVE: f64 = 450.0;
+pub(crate) const GRAIN_INERTIA_ABOVE: f64 = 450.0;
 
 /// Allowed departure of the sum of the volume shares from 1: shares given to three or four digits.
-pub const SHARE_TOLERANCE: f64 = 1e-3;
+pub(crate) const SHARE_TOLERANCE: f64 = 1e-3;
 
 /// Regime of a size class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -49,7 +49,7 @@ impl Regime {
 
 /// Why no Bagnold number could be given.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum BagnoldError {
+pub(crate) enum BagnoldError {
     /// A quantity is not positive and finite.
     #[error("{what} = {value}: must be positive and finite")]
     NotPositive {
@@ -82,7 +82,7 @@ pub enum BagnoldError {
 
 /// Grains of about one size.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SizeClass {
+pub(crate) struct SizeClass {
     /// Diameter, m.
     pub diameter_m: f64,
     /// Share of the volume of all solids, 0 to 1.
@@ -91,7 +91,7 @@ pub struct SizeClass {
 
 /// A mixture in shear.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mixture {
+pub(crate) struct Mixture {
     /// Volume of all grains over the volume of the mixture, 0 to 1.
     pub solid_fraction: f64,
     /// Largest possible solid fraction of these grains: about 0.64 for equal spheres at random, 0.74 closest packing
@@ -110,7 +110,7 @@ pub struct Mixture {
 
 /// What was found for one class.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClassReport {
+pub(crate) struct ClassReport {
     /// The class.
     pub class: SizeClass,
     /// Bagnold number with the linear concentration of *all* grains, which is what keeps a grain from moving past its
@@ -139,7 +139,7 @@ pub struct ClassReport {
 /// Bagnold 1954, eq. 2; 004 Eq 2.4 corrected.
 /// # Verified by
 /// Unit tests `exact_linear_concentration` and `exact_for_a_regular_array`.
-pub fn linear_concentration(solid_fraction: f64, maximum_packing: f64) -> Result<f64, BagnoldError> {
+pub(crate) fn linear_concentration(solid_fraction: f64, maximum_packing: f64) -> Result<f64, BagnoldError> {
     let legal = solid_fraction > 0.0 && solid_fraction < maximum_packing && maximum_packing <= 1.0;
     if !legal {
         return Err(BagnoldError::Packing { solid_fraction, maximum_packing });
@@ -159,7 +159,13 @@ pub fn linear_concentration(solid_fraction: f64, maximum_packing: f64) -> Result
 /// 000 Eq 1; 004 Eq 2.3.
 /// # Verified by
 /// Unit test `exact_bagnold_number`.
-pub fn bagnold_number(density: f64, diameter: f64, lambda: f64, shear_rate: f64, viscosity: f64) -> f64 {
+pub(crate) fn bagnold_number(
+    density: f64,
+    diameter: f64,
+    lambda: f64,
+    shear_rate: f64,
+    viscosity: f64,
+) -> f64 {
     density * diameter * diameter * lambda.sqrt() * shear_rate / viscosity
 }
 
@@ -173,7 +179,8 @@ pub fn bagnold_number(density: f64, diameter: f64, lambda: f64, shear_rate: f64,
 /// 000 Eq 1 solved for d.
 /// # Verified by
 /// Unit test `regimes_change_at_the_thresholds`.
-pub fn threshold_diameter(mixture: &Mixture, threshold: f64) -> Result<f64, BagnoldError> {
+#[cfg(test)]
+fn threshold_diameter(mixture: &Mixture, threshold: f64) -> Result<f64, BagnoldError> {
     positive("threshold", threshold)?;
     let lambda = checked(mixture)?;
     let scale = mixture.grain_density * lambda.sqrt() * mixture.shear_rate;
@@ -189,7 +196,7 @@ pub fn threshold_diameter(mixture: &Mixture, threshold: f64) -> Result<f64, Bagn
 /// 000 Eq 1; 004 Eqs 2.3-2.4 corrected; thresholds of Bagnold 1954.
 /// # Verified by
 /// Unit tests `regimes_change_at_the_thresholds` and `refuses_bad_input`.
-pub fn classify(classes: &[SizeClass], mixture: &Mixture) -> Result<Vec<ClassReport>, BagnoldError> {
+pub(crate) fn classify(classes: &[SizeClass], mixture: &Mixture) -> Result<Vec<ClassReport>, BagnoldError> {
     let lambda = checked(mixture)?;
     if classes.is_empty() {
         return Err(BagnoldError::NoClasses);

@@ -3,7 +3,7 @@
 /// The flow curve of a law, for estimates before a run: scales, time steps, dimensionless numbers.
 ///
 /// A law gives three numbers; the others follow from them, and a law that has closed forms gives those instead.
-pub trait FlowCurve {
+pub(crate) trait FlowCurve {
     /// Stress that remains as the shear rate vanishes, or that a smooth law has in its place: the scale of the Bingham
     /// number.
     fn plastic_stress(&self) -> f64;
@@ -84,7 +84,7 @@ pub trait FlowCurve {
 
 /// σ = σ0 + K γ̇ⁿ; with σ0 = 0 a power law, with n = 1 a Bingham or Newtonian fluid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PowerCurve {
+pub(crate) struct PowerCurve {
     /// Yield stress σ0 ≥ 0.
     pub sigma0: f64,
     /// Consistency K > 0.

@@ -1,6 +1,6 @@
 //! Constitutive laws σ(γ̇) and the local solve \[Y3\] that turns a stress into a shear rate.
 
-pub mod bagnold;
+pub(crate) mod bagnold;
 mod bingham;
 mod curve;
 mod herschel_bulkley;
@@ -17,7 +17,7 @@ use crate::lane::Lane;
 use crate::units::Units;
 
 pub use bingham::Bingham;
-pub use curve::{FlowCurve, PowerCurve};
+pub(crate) use curve::{FlowCurve, PowerCurve};
 pub use herschel_bulkley::HerschelBulkley;
 pub use newtonian::Newtonian;
 pub use papanastasiou::Papanastasiou;
@@ -119,7 +119,7 @@ impl Law {
 
     /// All its numbers.
     #[must_use]
-    pub fn parameters(&self) -> Vec<f64> {
+    pub(crate) fn parameters(&self) -> Vec<f64> {
         match *self {
             Self::Newtonian { mu } => vec![mu],
             Self::Bingham { sigma0, mu } => vec![sigma0, mu],
@@ -131,11 +131,11 @@ impl Law {
 
     /// The law in lattice units; `self` is in SI units.
     #[must_use]
-    pub fn to_lattice(&self, units: &Units) -> Self {
+    pub(crate) fn to_lattice(self, units: &Units) -> Self {
         let stress = |pa| units.stress_to_lattice(pa);
         let viscosity = |pa_s| units.viscosity_to_lattice(pa_s);
         let consistency = |k, n| units.consistency_to_lattice(k, n);
-        match *self {
+        match self {
             Self::Newtonian { mu } => Self::Newtonian { mu: viscosity(mu) },
             Self::Bingham { sigma0, mu } => Self::Bingham { sigma0: stress(sigma0), mu: viscosity(mu) },
             Self::HerschelBulkley { sigma0, k, n } => {
@@ -153,7 +153,7 @@ impl Law {
 
     /// Its flow curve, for estimates, in the units of its parameters.
     #[must_use]
-    pub fn curve(&self) -> Box<dyn FlowCurve> {
+    pub(crate) fn curve(&self) -> Box<dyn FlowCurve> {
         let power = |sigma0, k, n| Box::new(PowerCurve { sigma0, k, n });
         match *self {
             Self::Newtonian { mu } => power(0.0, mu, 1.0),
@@ -191,7 +191,7 @@ impl Law {
 
     /// τ = ½ + 3μ of the law that has the same one everywhere \[L6\].
     #[must_use]
-    pub fn constant_tau(&self) -> Option<f64> {
+    pub(crate) fn constant_tau(&self) -> Option<f64> {
         match *self {
             Self::Newtonian { mu } => Newtonian { mu }.constant_tau(),
             Self::Bingham { .. }
@@ -203,7 +203,7 @@ impl Law {
 
     /// Apparent dynamic viscosity σ(γ̇)/γ̇ at γ̇ > 0: the bits of the prepared law, without preparing it.
     #[must_use]
-    pub fn viscosity(&self, gamma_dot: f64) -> f64 {
+    pub(crate) fn viscosity(&self, gamma_dot: f64) -> f64 {
         match *self {
             Self::Newtonian { mu } => mu,
             Self::Bingham { sigma0, mu } => Bingham { sigma0, mu }.viscosity(gamma_dot),

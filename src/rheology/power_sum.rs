@@ -110,7 +110,7 @@ impl PowerSum {
     /// Tests `residual_over_all_decades`, `table_error_is_below_its_bound`; property
     /// `solve_is_monotone_and_unique`.
     #[inline(always)]
-    pub fn root<L: Lane>(&self, a: L, s: L) -> L {
+    pub(crate) fn root<L: Lane>(&self, a: L, s: L) -> L {
         let (one, n) = (L::one(), L::splat(self.n));
         let s = L::larger(s, L::splat(LEAST));
         let ratio = s / a;

@@ -24,7 +24,7 @@ pub fn omega_of_shear_rate<L: Lane>(rho: L, gamma_dot: L, q: L) -> L {
 /// # Verified by
 /// Claim `shear-rate-couette`.
 #[inline(always)]
-pub fn shear_rate_of_omega<L: Lane>(rho: L, omega: L, q: L) -> L {
+pub(crate) fn shear_rate_of_omega<L: Lane>(rho: L, omega: L, q: L) -> L {
     L::splat(3.0) * q * omega / rho
 }
 

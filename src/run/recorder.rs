@@ -28,7 +28,7 @@ impl Recorder {
     }
 
     /// A file of the folder.
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.folder.join(name)
     }
 
@@ -36,7 +36,7 @@ impl Recorder {
     ///
     /// # Errors
     /// The number of columns is not that of the first row.
-    pub fn row(&mut self, time_s: f64, probes: &[(String, Vec<Quantity>)]) -> Result<(), OutputError> {
+    pub(crate) fn row(&mut self, time_s: f64, probes: &[(String, Vec<Quantity>)]) -> Result<(), OutputError> {
         if self.series.columns.is_empty() {
             self.begin(probes);
         }
@@ -56,12 +56,12 @@ impl Recorder {
     }
 
     /// The time series so far.
-    pub fn series(&self) -> &Series {
+    pub(crate) fn series(&self) -> &Series {
         &self.series
     }
 
     /// Name and columns of every probe, in their order; empty before the first row.
-    pub fn groups(&self) -> &[(String, std::ops::Range<usize>)] {
+    pub(crate) fn groups(&self) -> &[(String, std::ops::Range<usize>)] {
         &self.groups
     }
 
@@ -69,7 +69,7 @@ impl Recorder {
     ///
     /// # Errors
     /// I/O.
-    pub fn write_series(&self) -> Result<(), OutputError> {
+    pub(crate) fn write_series(&self) -> Result<(), OutputError> {
         self.series.write(&self.path("series.csv"))
     }
 }

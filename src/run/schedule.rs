@@ -29,7 +29,7 @@ pub(super) struct Cadences {
 
 impl Cadences {
     /// Of a scene with fluid.
-    pub fn of_flow(scene: &Scene) -> Self {
+    pub(crate) fn of_flow(scene: &Scene) -> Self {
         let (output, stop) = (&scene.output, &scene.stop);
         Self {
             series: output.series,
@@ -41,7 +41,7 @@ impl Cadences {
     }
 
     /// Of a scene without fluid.
-    pub fn of_grains(scene: &DryScene) -> Self {
+    pub(crate) fn of_grains(scene: &DryScene) -> Self {
         let output = &scene.output;
         Self { series: output.series, files: output.grains, arrested: scene.stop.arrested, ..Self::default() }
     }
@@ -89,7 +89,7 @@ impl Schedule {
     }
 
     /// The next step after `now` at which anything is due.
-    pub fn next(&self, now: u64) -> u64 {
+    pub(crate) fn next(&self, now: u64) -> u64 {
         let checks = self.steady.next().min(self.arrested.next());
         let files = self.files.next().min(self.grains.next());
         let next = files.min(self.series.next()).min(checks);
@@ -97,7 +97,7 @@ impl Schedule {
     }
 
     /// The files due at `step`; `last`: all are.
-    pub fn take_files(&mut self, step: u64, last: bool) -> FilesDue {
+    pub(crate) fn take_files(&mut self, step: u64, last: bool) -> FilesDue {
         let files = self.files.take_if_due(step) || last;
         let grains = self.grains.take_if_due(step) || last || (files && self.grains_with_files);
         FilesDue { files, grains }
@@ -131,7 +131,7 @@ impl Ticker {
     }
 
     /// Whether the event is due at `step`; moves on to the next one if so.
-    pub fn take_if_due(&mut self, step: u64) -> bool {
+    pub(crate) fn take_if_due(&mut self, step: u64) -> bool {
         let due = self.next() == step;
         if due {
             self.advance_past(step);

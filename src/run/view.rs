@@ -32,20 +32,20 @@ pub(super) struct View<'a> {
 
 impl<'a> View<'a> {
     /// Grains that are not driven.
-    pub fn free(&self) -> impl Iterator<Item = usize> + use<'a> {
+    pub(crate) fn free(&self) -> impl Iterator<Item = usize> + use<'a> {
         let b = self.dem.bodies();
         (0..b.len()).filter(|&i| b.inverse_mass[i] > 0.0)
     }
 
     /// Largest speed of a free grain, m/s.
-    pub fn max_speed(&self) -> f64 {
+    pub(crate) fn max_speed(&self) -> f64 {
         let b = self.dem.bodies();
         // NaN must not hide behind a comparison; the method's own guard stops on it.
         self.free().map(|i| b.velocity[i].norm()).fold(0.0, f64::max)
     }
 
     /// What the energy balance has changed by since time 0, with what left, J.
-    pub fn unexplained(&self) -> f64 {
+    pub(crate) fn unexplained(&self) -> f64 {
         self.dem.energies().balance() + self.left.energy_j - self.start
     }
 }

@@ -46,13 +46,13 @@ pub struct Boundaries {
 impl Boundaries {
     /// `[axis][low, high]`.
     #[must_use]
-    pub fn by_axis(&self) -> [[Boundary; 2]; 3] {
+    pub(crate) fn by_axis(&self) -> [[Boundary; 2]; 3] {
         [[self.x_min, self.x_max], [self.y_min, self.y_max], [self.z_min, self.z_max]]
     }
 
     /// One face.
     #[must_use]
-    pub const fn at(&mut self, axis: Axis, end: End) -> &mut Boundary {
+    pub(crate) const fn at(&mut self, axis: Axis, end: End) -> &mut Boundary {
         match (axis, end) {
             (Axis::X, End::Min) => &mut self.x_min,
             (Axis::X, End::Max) => &mut self.x_max,

@@ -6,7 +6,7 @@ pub use crate::vector::norm;
 
 /// Gravity's force per volume, N/m³: ρ0 g.
 #[must_use]
-pub fn gravity_force(gravity: &Gravity, density: f64) -> [f64; 3] {
+pub(crate) fn gravity_force(gravity: &Gravity, density: f64) -> [f64; 3] {
     let weight = density * gravity.magnitude_m_per_s2;
     if let Some(direction) = gravity.direction {
         let norm = norm(direction);
@@ -20,13 +20,13 @@ pub fn gravity_force(gravity: &Gravity, density: f64) -> [f64; 3] {
 
 /// Acceleration of gravity, m/s².
 #[must_use]
-pub fn gravity_vector(gravity: &Gravity) -> [f64; 3] {
+pub(crate) fn gravity_vector(gravity: &Gravity) -> [f64; 3] {
     gravity_force(gravity, 1.0)
 }
 
 /// What acts on the fluid of a scene, N/m³, worked out once.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Forces {
+pub(crate) struct Forces {
     /// Acceleration of gravity, m/s²; 0 without gravity.
     pub gravity: [f64; 3],
     /// Axes along which the pressure of the fluid at rest is left out ([`Scene::weightless_axes`]).
@@ -74,7 +74,7 @@ impl Forces {
 
     /// The axis along which the total force is strongest; `None` without a force.
     #[must_use]
-    pub fn up_axis(&self) -> Option<Axis> {
+    pub(crate) fn up_axis(&self) -> Option<Axis> {
         self.extremes.iter().flatten().any(|f| *f != 0.0).then_some(self.up)
     }
 }
@@ -83,7 +83,7 @@ impl Scene {
     /// The axis along which gravity and body force are strongest (z before y before x), normal to beds and
     /// levels; `None` without a force.
     #[must_use]
-    pub fn up_axis(&self) -> Option<Axis> {
+    pub(crate) fn up_axis(&self) -> Option<Axis> {
         Forces::of(self).up_axis()
     }
 }
@@ -112,7 +112,7 @@ fn force_without_weight(scene: &Scene, without: [bool; 3]) -> BodyForce {
 
 /// Forces whose magnitudes bound the body force at all times.
 #[must_use]
-pub fn extreme_forces(force: &BodyForce) -> [[f64; 3]; 2] {
+pub(crate) fn extreme_forces(force: &BodyForce) -> [[f64; 3]; 2] {
     match *force {
         BodyForce::Constant { force_n_per_m3 } => [force_n_per_m3; 2],
         BodyForce::Oscillating { mean_n_per_m3: m, amplitude_n_per_m3: a, .. } => {
@@ -125,7 +125,7 @@ pub fn extreme_forces(force: &BodyForce) -> [[f64; 3]; 2] {
 /// The axis of the strongest force component and whether it points to smaller coordinates; z and true
 /// without a force.
 #[must_use]
-pub fn up(scene: &Scene) -> (Axis, bool) {
+pub(crate) fn up(scene: &Scene) -> (Axis, bool) {
     let forces = Forces::of(scene);
     (forces.up, forces.down_is_low)
 }

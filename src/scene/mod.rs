@@ -9,13 +9,13 @@ mod domain;
 pub mod dry;
 mod error;
 mod fluid;
-pub mod force;
+pub(crate) mod force;
 mod located;
 mod nearest;
 mod numerics;
 mod operator;
 mod parse;
-pub mod probe;
+pub(crate) mod probe;
 mod rheology;
 mod view;
 mod words;
@@ -88,7 +88,7 @@ pub struct Scene {
 
 impl Scene {
     /// Laws of all its fluids: that of `fluid`, then those of the layers.
-    pub fn rheologies(&self) -> impl Iterator<Item = &Rheology> {
+    pub(crate) fn rheologies(&self) -> impl Iterator<Item = &Rheology> {
         std::iter::once(&self.fluid.rheology).chain(self.layers.iter().map(|layer| &layer.rheology))
     }
 }
@@ -147,7 +147,7 @@ pub fn load_dry(path: &Path) -> Result<dry::DryScene, SceneError> {
 ///
 /// # Errors
 /// As [`load`].
-pub fn from_json(text: &str, file: &str, folder: &Path) -> Result<AnyScene, SceneError> {
+pub(crate) fn from_json(text: &str, file: &str, folder: &Path) -> Result<AnyScene, SceneError> {
     if parse::is_dry(text) {
         dry_from_json(text, file, folder).map(|scene| AnyScene::Dry(Box::new(scene)))
     } else {
@@ -173,7 +173,7 @@ pub fn flow_from_json(text: &str, file: &str, folder: &Path) -> Result<Scene, Sc
 ///
 /// # Errors
 /// As [`load_dry`].
-pub fn dry_from_json(text: &str, file: &str, folder: &Path) -> Result<dry::DryScene, SceneError> {
+pub(crate) fn dry_from_json(text: &str, file: &str, folder: &Path) -> Result<dry::DryScene, SceneError> {
     let mut scene: dry::DryScene = parse::parse(text, file)?;
     file.clone_into(&mut scene.file);
     folder.clone_into(&mut scene.folder);

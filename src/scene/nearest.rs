@@ -3,7 +3,7 @@
 /// The allowed name nearest to `found`, if any is near enough to be worth naming: few typing
 /// errors, or one name begins with the other (`viscosity` for `viscosity_pa_s`).
 #[must_use]
-pub fn nearest<'a>(found: &str, allowed: &'a [String]) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(found: &str, allowed: &'a [String]) -> Option<&'a str> {
     let lower = found.to_lowercase();
     let begins = |name: &&String| {
         lower.len() >= 4 && (name.starts_with(lower.as_str()) || lower.starts_with(name.as_str()))

@@ -238,7 +238,7 @@ pub struct Output {
 impl Output {
     /// All probes of a scene with fluid, in the order of their columns, and what the words that fluid and grains share
     /// mean in each.
-    pub fn all_probes(&self) -> impl Iterator<Item = (&Probe, Subject)> {
+    pub(crate) fn all_probes(&self) -> impl Iterator<Item = (&Probe, Subject)> {
         let fluid = self.probes.iter().map(|probe| (probe, Subject::Fluid));
         fluid.chain(self.grain_probes.iter().map(|probe| (probe, Subject::Grains)))
     }

@@ -47,7 +47,7 @@ impl Operator {
 
     /// Its key in a scene.
     #[must_use]
-    pub const fn key(self) -> &'static str {
+    pub(crate) const fn key(self) -> &'static str {
         match self {
             Self::Bgk => "bgk",
             Self::Trt => "trt",
@@ -58,7 +58,7 @@ impl Operator {
 
     /// Whether it has an odd relaxation rate of its own \[K2\].
     #[must_use]
-    pub const fn has_odd_rate(self) -> bool {
+    pub(crate) const fn has_odd_rate(self) -> bool {
         match self {
             Self::Trt | Self::CentralMoment => true,
             Self::Bgk | Self::Regularised => false,
@@ -67,7 +67,7 @@ impl Operator {
 
     /// Whether it brings a moving plug to rest with the exact yield stress \[K3\].
     #[must_use]
-    pub const fn stops_plugs(self) -> bool {
+    pub(crate) const fn stops_plugs(self) -> bool {
         match self {
             Self::CentralMoment => true,
             Self::Bgk | Self::Trt | Self::Regularised => false,
@@ -77,7 +77,7 @@ impl Operator {
     /// τ⁻ − ½ that is left in an unyielded solid, where τ⁺ is infinite; `None` where τ⁻ has no bound either. The
     /// solid slips along walls in proportion to it \[K3\].
     #[must_use]
-    pub const fn odd_excess_of_plugs(collision: &CollisionChoice) -> Option<f64> {
+    pub(crate) const fn odd_excess_of_plugs(collision: &CollisionChoice) -> Option<f64> {
         match collision {
             CollisionChoice::Trt(odd) | CollisionChoice::CentralMoment(odd) => Some(odd.floor),
             // Third moments without memory: ω⁻ = 1.
@@ -90,7 +90,7 @@ impl Operator {
     /// τ⁺ below which fast grains make it fail, as measured with a sphere of 3.3 cells at 0.08 to 0.15 cells per step,
     /// and a way out; `None`: not down to 0.505.
     #[must_use]
-    pub fn fails_around_fast_grains(
+    pub(crate) fn fails_around_fast_grains(
         collision: &CollisionChoice,
         half_way: bool,
     ) -> Option<(f64, &'static str)> {

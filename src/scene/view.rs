@@ -7,7 +7,7 @@ use super::{Boundary, Coupling, Scene};
 impl Scene {
     /// The scene as its grains see it; `None` without grains.
     #[must_use]
-    pub fn as_dry(&self) -> Option<DryScene> {
+    pub(crate) fn as_dry(&self) -> Option<DryScene> {
         let mut grains = self.grains.clone()?;
         grains.coupling = None;
         let solid = |solid: &super::fluid::Solid| GrainSolid {
@@ -45,13 +45,13 @@ impl Scene {
 
     /// The rules of the coupling, defaults if none are given.
     #[must_use]
-    pub fn coupling(&self) -> Coupling {
+    pub(crate) fn coupling(&self) -> Coupling {
         self.grains.as_ref().and_then(|grains| grains.coupling).unwrap_or_default()
     }
 
     /// Axes along which a uniform pressure gradient carries the weight.
     #[must_use]
-    pub fn balanced_axes(&self) -> [bool; 3] {
+    pub(crate) fn balanced_axes(&self) -> [bool; 3] {
         let (Some(gravity), Some(_), None) = (self.gravity, &self.grains, &self.fluid.initial) else {
             return [false; 3];
         };
@@ -66,7 +66,7 @@ impl Scene {
     /// Axes along which the pressure of the fluid at rest is left out of the computed one, and its weight with it:
     /// those with walls, in a box without air that holds grains.
     #[must_use]
-    pub fn weightless_axes(&self) -> [bool; 3] {
+    pub(crate) fn weightless_axes(&self) -> [bool; 3] {
         if self.grains.is_none() || self.fluid.initial.is_some() {
             return [false; 3];
         }

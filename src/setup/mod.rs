@@ -6,15 +6,14 @@
 
 use std::sync::Arc;
 
-pub mod guard;
-pub mod suspension;
+pub(crate) mod guard;
+pub(crate) mod suspension;
 
 pub use suspension::Suspension;
 
 use crate::collision::CollisionChoice;
 use crate::rheology::Law;
 pub use crate::rheology::YieldTreatment;
-use crate::vector::norm;
 
 /// What happens to populations that would arrive through one face of the box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,7 +81,7 @@ impl Precision {
 
     /// Bytes of a population.
     #[must_use]
-    pub const fn bytes(self) -> u64 {
+    pub(crate) const fn bytes(self) -> u64 {
         match self {
             Self::Double => 8,
             Self::Single | Self::SingleStorage => 4,
@@ -345,16 +344,6 @@ impl BodyForce {
                     after
                 }
             }
-        }
-    }
-
-    /// Largest magnitude the force reaches, lattice units.
-    #[must_use]
-    pub fn largest(&self) -> f64 {
-        match *self {
-            Self::Constant(force) => norm(force),
-            Self::Oscillating { mean, amplitude, .. } => norm(mean) + norm(amplitude),
-            Self::Stepped { before, after, .. } => norm(before).max(norm(after)),
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::solver::run::{Ledger, Load};
 
 /// Everything that was brought in or taken out so far.
 #[derive(Clone, Debug, Default)]
-pub struct Books {
+pub(crate) struct Books {
     /// Mass at step 0.
     pub initial_mass: f64,
     /// Mass at the end of the last step, less what came from outside.
@@ -48,7 +48,7 @@ const ROUNDINGS: f64 = 32.0;
 
 /// What one step brought in over links: entries of many cells, to be added to the [`Books`] in any order.
 #[derive(Clone, Debug, Default)]
-pub struct Entries {
+pub(crate) struct Entries {
     /// Mass that left through open faces.
     pub outflow: Sum,
     /// Mass that came in at walls.
@@ -65,7 +65,7 @@ pub struct Entries {
 
 /// The two ends of a link at a cell.
 #[derive(Clone, Copy, Debug)]
-pub struct Crossing {
+pub(crate) struct Crossing {
     /// Arriving direction.
     pub i: usize,
     /// f_ī* that left.
@@ -80,7 +80,7 @@ pub struct Crossing {
 
 /// What the links of one cell brought in, added up in the order of the directions.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct CellEntries {
+pub(crate) struct CellEntries {
     outflow: f64,
     from_walls: f64,
     from_faces: [f64; 3],
@@ -92,7 +92,7 @@ pub struct CellEntries {
 impl CellEntries {
     /// Books one link. `gas`: whether the cell at the other end holds no fluid.
     #[inline]
-    pub fn link(&mut self, crossing: &Crossing, source: &Source, gas: bool, entries: &mut Entries) {
+    pub(crate) fn link(&mut self, crossing: &Crossing, source: &Source, gas: bool, entries: &mut Entries) {
         let Crossing { i, leaving, arrived, share, liquid } = *crossing;
         // Arrives with c_i f_i, left with −c_i f_ī.
         let brought = C[i].map(|c| f64::from(c) * (arrived + leaving));
@@ -134,7 +134,7 @@ impl CellEntries {
 
     /// Hands the sums of the cell over.
     #[inline]
-    pub fn close(&self, entries: &mut Entries) {
+    pub(crate) fn close(&self, entries: &mut Entries) {
         if !self.touched {
             return;
         }
@@ -180,7 +180,7 @@ impl Entries {
     }
 
     /// Adds the entries of other cells.
-    pub fn merge(&mut self, other: &Self) {
+    pub(crate) fn merge(&mut self, other: &Self) {
         self.outflow.merge(&other.outflow);
         self.from_walls.merge(&other.from_walls);
         self.from_faces.merge(&other.from_faces);
@@ -199,7 +199,7 @@ impl Entries {
 
 impl Books {
     /// Books the entries of a step and brings the loads up to date.
-    pub fn enter(&mut self, entries: &Entries, loads: &mut [Load]) {
+    pub(crate) fn enter(&mut self, entries: &Entries, loads: &mut [Load]) {
         self.outflow.merge(&entries.outflow);
         self.from_walls.merge(&entries.from_walls);
         self.from_faces.merge(&entries.from_faces);
@@ -216,7 +216,7 @@ impl Books {
 
     /// Mass gained or lost since the last closing, and the bound of rounding; `None` if within it.
     /// `rounding`: largest relative error of a stored population.
-    pub fn close(&mut self, mass: f64, fluid_cells: u64, rounding: f64) -> Option<(f64, f64)> {
+    pub(crate) fn close(&mut self, mass: f64, fluid_cells: u64, rounding: f64) -> Option<(f64, f64)> {
         let external = (self.from_walls.value() - self.outflow.value()) + self.mass_from_grains.value();
         let before = self.mass;
         self.mass = mass - external;

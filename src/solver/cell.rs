@@ -12,10 +12,10 @@ use crate::solver::physics::Physics;
 use crate::solver::run::Runaway;
 
 /// Populations of one cell, f − w.
-pub type Cell = [f64; Q];
+pub(crate) type Cell = [f64; Q];
 
 /// A cell's moments and its even relaxation rate.
-pub struct State<L = f64> {
+pub(crate) struct State<L = f64> {
     /// Moments before collision.
     pub m: Moments<L>,
     /// ω⁺.
@@ -24,7 +24,7 @@ pub struct State<L = f64> {
 
 /// Moments and ω⁺ of a cell before collision \[L4\] \[Y1\]–\[Y4\].
 #[inline(always)]
-pub fn state<P: Physics>(physics: &P, h: &Cell, force: &[f64; 3], fluid: u8, previous: f64) -> State {
+pub(crate) fn state<P: Physics>(physics: &P, h: &Cell, force: &[f64; 3], fluid: u8, previous: f64) -> State {
     let m = physics.moments(h, force);
     let omega = match physics.constant_omega() {
         Some(omega) => omega,
@@ -35,7 +35,7 @@ pub fn state<P: Physics>(physics: &P, h: &Cell, force: &[f64; 3], fluid: u8, pre
 
 /// The guard: density and velocity are finite, density positive, speed within the limit.
 #[inline(always)]
-pub fn runaway(m: &Moments<f64>, limit: f64) -> Option<Runaway> {
+pub(crate) fn runaway(m: &Moments<f64>, limit: f64) -> Option<Runaway> {
     let speed2 = (m.u[0] * m.u[0] + m.u[1] * m.u[1]) + m.u[2] * m.u[2];
     if speed2 <= limit * limit && m.rho > 0.0 {
         return None;
@@ -51,7 +51,7 @@ pub fn runaway(m: &Moments<f64>, limit: f64) -> Option<Runaway> {
 
 /// F − ∇p of a cell, the pressure from the densities around it \[B3\] \[K6\]. `is_fluid(cell)`: whether a
 /// neighbour that is not solid has a density at all (gas has none).
-pub fn residual_force(
+pub(crate) fn residual_force(
     f: &[Cell],
     links: &Links,
     cell: usize,
@@ -68,7 +68,7 @@ pub fn residual_force(
 
 /// What a wall correction depends on besides the state of its cell.
 #[derive(Clone, Copy, Debug)]
-pub struct Situation<L = f64> {
+pub(crate) struct Situation<L = f64> {
     /// F − ∇p of the cell.
     pub residual: [L; 3],
     /// Number of the fluid in it.
@@ -83,7 +83,7 @@ pub struct Situation<L = f64> {
 ///
 /// `walls`: bit i is set where the link along c_i hits a wall. `normal`: unit vector towards it.
 #[inline(always)]
-pub fn wall_correction<L: Lane, P: Physics>(
+pub(crate) fn wall_correction<L: Lane, P: Physics>(
     physics: &P,
     walls: u32,
     normal: &[f64; 3],
@@ -126,7 +126,7 @@ pub fn wall_correction<L: Lane, P: Physics>(
 
 /// Adds the source of \[K6\] to post-collision populations.
 #[inline(always)]
-pub fn add_stress_source<L: Lane, P: Physics>(
+pub(crate) fn add_stress_source<L: Lane, P: Physics>(
     physics: &P,
     post: &mut [L; Q],
     state: &State<L>,
@@ -139,7 +139,7 @@ pub fn add_stress_source<L: Lane, P: Physics>(
 
 /// What a wall sends back in direction `i` \[B1\] \[B3\]; `own`: post-collision populations of the cell.
 #[inline(always)]
-pub fn wall_link<P: Physics>(
+pub(crate) fn wall_link<P: Physics>(
     physics: &P,
     own: &Cell,
     correction: Option<&Cell>,

@@ -8,7 +8,7 @@ use crate::setup::{Face, Setup};
 ///
 /// # Errors
 /// The first inconsistency found.
-pub fn check(setup: &Setup) -> Result<(), StartError> {
+pub(crate) fn check(setup: &Setup) -> Result<(), StartError> {
     // Three of the largest extents overflow even 128 bits.
     let cells = setup.extents.iter().fold(1_u128, |cells, &n| cells.saturating_mul(n as u128));
     if cells > u128::from(MAX_CELLS) {

@@ -16,7 +16,7 @@ pub trait Compiled {
 
 /// A loop of its own for each of the laws that most scenes have, with this operator; the others, and several
 /// fluids, share one.
-pub fn with_own_loop<C: Collision, W: Compiled>(setup: &Setup, collision: C, work: W) -> W::Result {
+pub(crate) fn with_own_loop<C: Collision, W: Compiled>(setup: &Setup, collision: C, work: W) -> W::Result {
     let &[law] = setup.fluids.as_slice() else { return with_shared_loop(setup, work) };
     match law {
         Law::Newtonian { mu } => work.with(standard(setup, Newtonian { mu }, collision)),
@@ -29,7 +29,11 @@ pub fn with_own_loop<C: Collision, W: Compiled>(setup: &Setup, collision: C, wor
 }
 
 /// A loop of its own for the Newtonian law only.
-pub fn with_newtonian_loop<C: Collision, W: Compiled>(setup: &Setup, collision: C, work: W) -> W::Result {
+pub(crate) fn with_newtonian_loop<C: Collision, W: Compiled>(
+    setup: &Setup,
+    collision: C,
+    work: W,
+) -> W::Result {
     match *setup.fluids.as_slice() {
         [Law::Newtonian { mu }] => work.with(standard(setup, Newtonian { mu }, collision)),
         [] | [_] | [_, _, ..] => with_shared_loop(setup, work),
@@ -37,7 +41,7 @@ pub fn with_newtonian_loop<C: Collision, W: Compiled>(setup: &Setup, collision: 
 }
 
 /// The loop that chooses law and operator per cell.
-pub fn with_shared_loop<W: Compiled>(setup: &Setup, work: W) -> W::Result {
+pub(crate) fn with_shared_loop<W: Compiled>(setup: &Setup, work: W) -> W::Result {
     work.with(Standard {
         laws: setup.fluids.iter().map(Law::prepare).collect(),
         treatment: setup.yielding,

@@ -10,13 +10,13 @@ pub const REST: FlowPoint = FlowPoint { density: 1.0, velocity: [0.0; 3], gradie
 
 /// Strain-rate tensor ½(∇u + ∇uᵀ): xx, yy, zz, xy, xz, yz.
 #[must_use]
-pub fn strain_rate(gradient: &[[f64; 3]; 3]) -> [f64; 6] {
+pub(crate) fn strain_rate(gradient: &[[f64; 3]; 3]) -> [f64; 6] {
     SYMMETRIC.map(|[a, b]| 0.5 * (gradient[a][b] + gradient[b][a]))
 }
 
 /// γ̇ = √(2 S:S) \[Y2\].
 #[must_use]
-pub fn shear_rate(s: &[f64; 6]) -> f64 {
+pub(crate) fn shear_rate(s: &[f64; 6]) -> f64 {
     let diagonal = (s[0] * s[0] + s[1] * s[1]) + s[2] * s[2];
     let mixed = (s[3] * s[3] + s[4] * s[4]) + s[5] * s[5];
     (2.0 * (diagonal + 2.0 * mixed)).sqrt()
@@ -24,7 +24,7 @@ pub fn shear_rate(s: &[f64; 6]) -> f64 {
 
 /// Relaxation time ½ + 3σ(γ̇)/(ργ̇) at a shear rate; 1 at rest, where it does not matter because Q = 0.
 #[must_use]
-pub fn tau_at(law: &Law, rho: f64, gamma_dot: f64) -> f64 {
+pub(crate) fn tau_at(law: &Law, rho: f64, gamma_dot: f64) -> f64 {
     match law.constant_tau() {
         Some(tau) => tau,
         None if gamma_dot > 0.0 => 0.5 + 3.0 * law.viscosity(gamma_dot) / rho,
@@ -74,7 +74,7 @@ pub fn start(point: &FlowPoint, law: &Law, force: &[f64; 3]) -> [f64; Q] {
 
 /// ω⁺ of a cell that the lagged treatment starts from: the law at the initial shear rate, clamped; 0 for the others.
 #[must_use]
-pub fn starting_omega(setup: &Setup, cell: usize) -> f64 {
+pub(crate) fn starting_omega(setup: &Setup, cell: usize) -> f64 {
     let YieldTreatment::LaggedClamped { tau_min, tau_max } = setup.yielding else { return 0.0 };
     let point = setup.initial.as_ref().map_or(REST, |flow| flow(setup.coordinates(cell)));
     let gamma_dot = shear_rate(&strain_rate(&point.gradient));

@@ -1,17 +1,17 @@
 //! State, steps and the backends that take them.
 
-pub mod books;
+pub(crate) mod books;
 pub mod boundary_cells;
-pub mod cell;
-pub mod check;
+pub(crate) mod cell;
+pub(crate) mod check;
 pub mod choose;
-pub mod compiled;
+pub(crate) mod compiled;
 pub mod fast;
 pub mod initial;
-pub mod layout;
-pub mod observe;
+pub(crate) mod layout;
+pub(crate) mod observe;
 pub mod physics;
 pub mod plain;
-pub mod pool;
+pub(crate) mod pool;
 pub mod run;
 pub mod steady;

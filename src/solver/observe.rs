@@ -7,7 +7,7 @@ use crate::lattice::Q;
 use crate::lattice::moments::{Moments, moments};
 
 /// A run whose fluid cells can be visited in the order of the box.
-pub trait Observed: Run {
+pub(crate) trait Observed: Run {
     /// Where the run keeps a fluid cell.
     type At: Copy;
 
@@ -38,7 +38,7 @@ pub trait Observed: Run {
 }
 
 /// Macroscopic fields at the current step.
-pub fn fields(run: &impl Observed) -> Fields {
+pub(crate) fn fields(run: &impl Observed) -> Fields {
     let mut fields = run.blank_fields();
     let force = run.body_force();
     for at in run.in_order() {
@@ -53,7 +53,7 @@ pub fn fields(run: &impl Observed) -> Fields {
 }
 
 /// Sums over the fluid, weighted with its mass: Σ(mass) less the number of full cells, Σ m u, Σ ½ m u².
-pub fn totals(run: &impl Observed) -> Totals {
+pub(crate) fn totals(run: &impl Observed) -> Totals {
     let force = run.body_force();
     let mut totals = Totals { mass_excess: 0.0, momentum: [0.0; 3], kinetic_energy: 0.0 };
     for at in run.in_order() {

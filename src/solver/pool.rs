@@ -4,12 +4,12 @@ use rayon::prelude::*;
 
 /// As many threads as asked for; `None` for one, and where they cannot be had: results do not depend on it.
 #[must_use]
-pub fn start(threads: usize) -> Option<rayon::ThreadPool> {
+pub(crate) fn start(threads: usize) -> Option<rayon::ThreadPool> {
     (threads > 1).then(|| rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok()).flatten()
 }
 
 /// Runs `work` on every item, on the pool if there is one; results in order.
-pub fn each<I: Send, T: Send>(
+pub(crate) fn each<I: Send, T: Send>(
     pool: Option<&rayon::ThreadPool>,
     items: Vec<I>,
     work: impl Fn(I) -> T + Sync + Send,

@@ -26,7 +26,7 @@ pub struct SteadyOutcome {
 
 /// Largest change between two velocity fields over the largest speed of the second; zero when both rest.
 #[must_use]
-pub fn residual(before: &[[f64; 3]], after: &[[f64; 3]]) -> f64 {
+pub(crate) fn residual(before: &[[f64; 3]], after: &[[f64; 3]]) -> f64 {
     let mut change = 0.0_f64;
     let mut speed = 0.0_f64;
     for (u, v) in before.iter().zip(after) {

@@ -13,7 +13,7 @@ pub type Matrix = [[C64; Q]; Q];
 pub type EigenvalueSolver = fn(&Matrix) -> Option<[C64; Q]>;
 
 /// Zero.
-pub const ZERO: C64 = Complex::new(0.0, 0.0);
+pub(crate) const ZERO: C64 = Complex::new(0.0, 0.0);
 /// Sweeps until one eigenvalue has settled: two or three are usual, the shift is changed after every tenth.
 const SWEEPS: u32 = 60;
 
@@ -61,7 +61,7 @@ pub fn eigenvalues(matrix: &Matrix) -> Option<[C64; Q]> {
 
 /// |z|.
 #[inline]
-pub fn modulus(z: C64) -> f64 {
+pub(crate) fn modulus(z: C64) -> f64 {
     (z.re * z.re + z.im * z.im).sqrt()
 }
 

@@ -29,7 +29,11 @@ impl Row {
     ///
     /// # Errors
     /// Eigenvalues did not converge.
-    pub fn compute(collision: &CollisionChoice, tau: f64, search: &Search) -> Result<Self, StabilityError> {
+    pub(crate) fn compute(
+        collision: &CollisionChoice,
+        tau: f64,
+        search: &Search,
+    ) -> Result<Self, StabilityError> {
         let mut limits = [Limit { speed: 0.0, wave: [0.0; 3] }; 3];
         for (limit, direction) in limits.iter_mut().zip(Direction::ALL) {
             *limit = max_stable_speed_along(collision, tau, direction, search)?;
@@ -78,7 +82,7 @@ pub fn table() -> &'static [Column] {
 /// of any row. Above the last row: its value; but where the limit still falls there (the central-moment
 /// and regularised operators), as τ⁺^(−1/2), hence zero for a cell that never yields.
 #[must_use]
-pub fn interpolated(collision: &CollisionChoice, tau: f64) -> Option<f64> {
+pub(crate) fn interpolated(collision: &CollisionChoice, tau: f64) -> Option<f64> {
     let rows = &table().iter().find(|c| c.collision == *collision)?.rows;
     let (first, last) = (rows.first()?, rows.last()?);
     if tau <= first.tau {

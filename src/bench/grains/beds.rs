@@ -43,7 +43,7 @@ pub fn crystal(k: u32) -> Result<Setup, DemError> {
 ///
 /// # Errors
 /// None for n ≥ 1.
-pub fn spheres(n: usize) -> Result<Setup, DemError> {
+pub(crate) fn spheres(n: usize) -> Result<Setup, DemError> {
     let side = 2.0 * R * libm::cbrt(n as f64 / 2f64.sqrt()) * 1.02;
     let region = Region::Box { low: V3::zeros(), high: V3::repeat(side) };
     let mut s = empty();

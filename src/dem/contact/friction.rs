@@ -4,7 +4,7 @@ use super::V3;
 
 /// A spring that gives way at a cap.
 #[derive(Debug, Clone, Copy)]
-pub struct Slider {
+pub(crate) struct Slider {
     /// Elongation, advanced by half a step; already turned into the present contact plane.
     pub spring: V3,
     /// Magnitude of the spring force at the last step; after the call, at this step.
@@ -27,7 +27,14 @@ pub struct Slider {
 /// # Verified by
 /// `exact_sliding_to_rolling`, `exact_incline_threshold`, `balance_of_energy`.
 #[inline(always)]
-pub fn slide(s: &mut Slider, v: &V3, stiffness: f64, damping: f64, cap: f64, dt: f64) -> (V3, f64, f64) {
+pub(crate) fn slide(
+    s: &mut Slider,
+    v: &V3,
+    stiffness: f64,
+    damping: f64,
+    cap: f64,
+    dt: f64,
+) -> (V3, f64, f64) {
     let half = v * (0.5 * dt);
     let trial = s.spring + half;
     let length = trial.norm();

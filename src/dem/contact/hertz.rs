@@ -11,7 +11,7 @@ use super::{Geometry, Normal};
 /// # Verified by
 /// `exact_hertz_contact`, `reference_restitution_viscoelastic`.
 #[inline(always)]
-pub fn visco_elastic(young: f64, shear: f64, time: f64, g: &Geometry) -> Normal {
+pub(crate) fn visco_elastic(young: f64, shear: f64, time: f64, g: &Geometry) -> Normal {
     let root = (g.radius * g.overlap).sqrt();
     let ea = young * root;
     Normal {

@@ -9,7 +9,7 @@ use super::{Geometry, Normal};
 /// # Verified by
 /// `exact_linear_restitution`.
 #[inline(always)]
-pub fn spring_dashpot(stiffness: f64, ratio: f64, tangential: f64, g: &Geometry) -> Normal {
+pub(crate) fn spring_dashpot(stiffness: f64, ratio: f64, tangential: f64, g: &Geometry) -> Normal {
     Normal {
         elastic: stiffness * g.overlap,
         damping: 2.0 * ratio * (stiffness * g.mass).sqrt(),

@@ -4,12 +4,12 @@
 //! velocity of the first surface relative to the second, the force acts on the first side and its opposite on
 //! the second.
 
-pub mod friction;
-pub mod hertz;
-pub mod linear;
-pub mod pass;
+pub(crate) mod friction;
+pub(crate) mod hertz;
+pub(crate) mod linear;
+pub(crate) mod pass;
 pub mod restitution;
-pub mod tsuji;
+pub(crate) mod tsuji;
 
 use super::V3;
 use super::material::{Compiled, PairLaw};
@@ -101,7 +101,7 @@ pub struct Rolling {
 impl History {
     /// Energy still in the tangential spring of a contact that has just opened, J. It is lost.
     #[inline]
-    pub fn released(&self) -> f64 {
+    pub(crate) fn released(&self) -> f64 {
         0.5 * self.force * self.spring.norm()
     }
 }
@@ -109,7 +109,7 @@ impl History {
 impl Rolling {
     /// Energy still in the rolling spring of a contact that has just opened, J. It is lost.
     #[inline]
-    pub fn released(&self) -> f64 {
+    pub(crate) fn released(&self) -> f64 {
         0.5 * self.torque * self.roll.norm()
     }
 }
@@ -134,7 +134,7 @@ pub struct Losses {
 impl Losses {
     /// Adds `other`, term by term.
     #[inline(always)]
-    pub fn add(&mut self, other: &Losses) {
+    pub(crate) fn add(&mut self, other: &Losses) {
         self.normal += other.normal;
         self.tangential += other.tangential;
         self.rolling += other.rolling;
@@ -157,7 +157,7 @@ pub struct Reaction {
 
 /// The normal force without cut-off and what follows from it.
 #[derive(Debug, Clone, Copy)]
-pub struct Normal {
+pub(crate) struct Normal {
     /// Elastic part, N.
     pub elastic: f64,
     /// Damping coefficient, N s/m.
@@ -170,7 +170,7 @@ pub struct Normal {
 
 /// Elastic force, damping and tangential stiffness of a pair at an overlap.
 #[inline(always)]
-pub fn normal_terms(law: &PairLaw, g: &Geometry) -> Normal {
+pub(crate) fn normal_terms(law: &PairLaw, g: &Geometry) -> Normal {
     match law.normal {
         Compiled::ViscoElastic { time } => hertz::visco_elastic(law.young, law.shear, time, g),
         Compiled::Tsuji { alpha } => tsuji::constant_restitution(law.young, law.shear, alpha, g),
@@ -182,7 +182,7 @@ pub fn normal_terms(law: &PairLaw, g: &Geometry) -> Normal {
 
 /// Elastic energy stored by the overlap, J.
 #[inline]
-pub fn elastic_energy(law: &PairLaw, g: &Geometry) -> f64 {
+pub(crate) fn elastic_energy(law: &PairLaw, g: &Geometry) -> f64 {
     let n = normal_terms(law, g);
     match law.normal {
         // integral of F over the overlap: F ~ delta^{3/2}

@@ -8,11 +8,11 @@ use crate::dem::neighbours::PairList;
 use rayon::prelude::*;
 
 /// Pairs per block; the books are summed block by block.
-pub const BLOCK: usize = 512;
+pub(crate) const BLOCK: usize = 512;
 
 /// Force of a pair, as little as the sums over partners need.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PairForce {
+pub(crate) struct PairForce {
     /// On the first member, N.
     pub force: V3,
     /// n × F_t, N: the torque of friction on either side is minus this times its arm.
@@ -23,7 +23,7 @@ pub struct PairForce {
 
 /// What pairs carry from step to step.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct PairState {
+pub(crate) struct PairState {
     /// One per pair of the list.
     pub history: Vec<History>,
     /// One per pair of the list, or none at all if nothing resists rolling.
@@ -38,7 +38,7 @@ pub struct PairState {
 impl PairState {
     /// Torque of friction of pair `p` about the centre of the side with this radius, with its sign turned, N m.
     #[inline]
-    pub fn torque(&self, p: usize, radius: f64) -> V3 {
+    pub(crate) fn torque(&self, p: usize, radius: f64) -> V3 {
         self.force[p].lever * (radius - self.force[p].half_overlap)
     }
 }
@@ -68,7 +68,7 @@ impl PairState {
 ///
 /// The contact point halves the overlap, so the arms add up to the distance and angular momentum is kept.
 #[inline(always)]
-pub fn meet(a: &Member, b: &Member, d: &V3) -> Option<(Geometry, f64, f64)> {
+pub(crate) fn meet(a: &Member, b: &Member, d: &V3) -> Option<(Geometry, f64, f64)> {
     let sum = a.radius + b.radius;
     let d2 = d.norm_squared();
     if d2 >= sum * sum || d2.is_nan() {
@@ -100,7 +100,7 @@ fn open(touching: &mut bool, history: &mut History, rolling: Option<&mut Rolling
 
 /// What all pairs have in common in a step.
 #[derive(Debug, Clone, Copy)]
-pub struct Inputs<'a> {
+pub(crate) struct Inputs<'a> {
     /// Constants of the pairs of materials.
     pub table: &'a PairTable,
     /// All members where they are now.

@@ -5,18 +5,16 @@
 
 const PI: f64 = std::f64::consts::PI;
 
-/// Hertz: t_c = this × δ_max / v, with (4/5) √π Γ(2/5)/Γ(9/10).
-pub const CONTACT_TIME_OVERLAP: f64 = 2.943_275_184_32;
 /// Hertz: t_c = this × (m*² / (E*² R* v))^{1/5}.
-pub const CONTACT_TIME_MASS: f64 = 2.868_265_699_2;
+pub(crate) const CONTACT_TIME_MASS: f64 = 2.868_265_699_2;
 
 /// Duration of an elastic Hertz collision, s.
-pub fn hertz_contact_time(mass: f64, young: f64, radius: f64, speed: f64) -> f64 {
+pub(crate) fn hertz_contact_time(mass: f64, young: f64, radius: f64, speed: f64) -> f64 {
     CONTACT_TIME_MASS * libm::pow(mass * mass / (young * young * radius * speed), 0.2)
 }
 
 /// Largest overlap of an elastic Hertz collision, (15 m* v² / (16 E* √R*))^{2/5}, m.
-pub fn hertz_largest_overlap(mass: f64, young: f64, radius: f64, speed: f64) -> f64 {
+pub(crate) fn hertz_largest_overlap(mass: f64, young: f64, radius: f64, speed: f64) -> f64 {
     libm::pow(15.0 * mass * speed * speed / (16.0 * young * radius.sqrt()), 0.4)
 }
 
@@ -29,7 +27,7 @@ pub fn textbook(b: f64) -> f64 {
 ///
 /// e = exp(−b s), tan(w s) = −2 b w/(1 − 2b²), w = √(1 − b²) (Schwager & Pöschel 2007). Tsuji's law is the same
 /// oscillator in the variable δ^{5/4} with b = α/√5, so the formula serves both laws.
-pub fn cut_off(b: f64) -> f64 {
+pub(crate) fn cut_off(b: f64) -> f64 {
     if b < 1.0 {
         let w = (1.0 - b * b).sqrt();
         libm::exp(-b / w * (PI - libm::atan2(2.0 * b * w, 1.0 - 2.0 * b * b)))
@@ -56,7 +54,7 @@ pub fn linear_damping_ratio(e: f64) -> f64 {
 }
 
 /// α of Tsuji's law that gives restitution `e` (0 < e ≤ 1) with attraction cut off.
-pub fn tsuji_alpha(e: f64) -> f64 {
+pub(crate) fn tsuji_alpha(e: f64) -> f64 {
     5f64.sqrt() * linear_damping_ratio(e)
 }
 
@@ -65,7 +63,7 @@ pub fn tsuji_alpha(e: f64) -> f64 {
 ///
 /// Runge–Kutta of fourth order with steps that shrink like √x towards the ends, where √x is not smooth; `steps`
 /// steps per unit of time at most, error below 2e-7 at 4000.
-pub fn visco_elastic(a: f64, steps: u32) -> (f64, f64) {
+pub(crate) fn visco_elastic(a: f64, steps: u32) -> (f64, f64) {
     fall(a, steps, false)
 }
 

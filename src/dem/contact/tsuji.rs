@@ -9,7 +9,7 @@ use super::{Geometry, Normal};
 /// # Verified by
 /// `reference_restitution_tsuji`.
 #[inline(always)]
-pub fn constant_restitution(young: f64, shear: f64, alpha: f64, g: &Geometry) -> Normal {
+pub(crate) fn constant_restitution(young: f64, shear: f64, alpha: f64, g: &Geometry) -> Normal {
     let root = (g.radius * g.overlap).sqrt();
     let ka = 4.0 / 3.0 * young * root; // k sqrt(delta)
     Normal {

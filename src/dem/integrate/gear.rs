@@ -52,14 +52,14 @@ impl Gear {
 }
 
 /// Gear's values of all bodies: of places, and of spins (of clumps: angular momenta).
-pub type Derivatives = (Vec<Gear>, Vec<Gear>);
+pub(crate) type Derivatives = (Vec<Gear>, Vec<Gear>);
 
 /// Gear's predictor for positions and spins (of clumps: angular momenta; their attitude turns freely at the mean
 /// momentum of the step, second order).
 ///
 /// # Returns
 /// The first body whose free rotation did not converge.
-pub fn predict(b: &mut Bodies, state: &mut Derivatives, step: &Step) -> Option<usize> {
+pub(crate) fn predict(b: &mut Bodies, state: &mut Derivatives, step: &Step) -> Option<usize> {
     let (places, turns) = state;
     (b.each(), places, turns)
         .into_par_iter()
@@ -97,7 +97,7 @@ fn predict_one(body: Body, place: &mut Gear, angle: &mut Gear, step: &Step) -> R
 ///
 /// # Returns
 /// The first body whose state is not finite.
-pub fn correct<F>(
+pub(crate) fn correct<F>(
     b: &mut Bodies,
     state: &mut Derivatives,
     external: &External,

@@ -1,7 +1,7 @@
 //! Integrators \[D3\]: the passes over bodies, before the forces and after them.
 
 pub mod gear;
-pub mod verlet;
+pub(crate) mod verlet;
 
 use super::bodies::Body;
 use super::rotation::{rotate_free, spin_of, turn};
@@ -24,11 +24,11 @@ pub enum Integrator {
 }
 
 /// Force and torque set from outside, one pair per body, or none at all.
-pub type External = Option<(Vec<V3>, Vec<V3>)>;
+pub(crate) type External = Option<(Vec<V3>, Vec<V3>)>;
 
 /// Constants of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Step {
+pub(crate) struct Step {
     /// s.
     pub dt: f64,
     /// m/s².

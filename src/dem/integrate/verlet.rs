@@ -17,7 +17,7 @@ use rayon::prelude::*;
 /// docs/method.md \[D3\], \[D4\]; Swope et al. 1982, doi:10.1063/1.442716.
 /// # Verified by
 /// `order_verlet_smooth`, `conserves_clump_free`, `exact_flip_period`.
-pub fn drift(b: &mut Bodies, external: &External, step: &Step) -> Option<usize> {
+pub(crate) fn drift(b: &mut Bodies, external: &External, step: &Step) -> Option<usize> {
     b.each()
         .enumerate()
         .with_min_len(LEAST)
@@ -58,7 +58,7 @@ fn drift_one(body: Body, (force, torque): (V3, V3), step: &Step) -> Result<(), T
 /// docs/method.md \[D3\], \[D4\]; Swope et al. 1982, doi:10.1063/1.442716.
 /// # Verified by
 /// `order_verlet_smooth`, `conserves_clump_free`, `exact_flip_period`.
-pub fn correct<F>(b: &mut Bodies, dt: f64, found: F) -> Option<usize>
+pub(crate) fn correct<F>(b: &mut Bodies, dt: f64, found: F) -> Option<usize>
 where
     F: Fn(usize, &V3) -> (V3, V3) + Sync,
 {

@@ -38,7 +38,7 @@ pub struct Cells {
 
 /// Position folded into the base cell, and the whole periods taken away.
 #[inline]
-pub fn fold(x: &V3, period: &[Option<f64>; 3]) -> (V3, [i32; 3]) {
+pub(crate) fn fold(x: &V3, period: &[Option<f64>; 3]) -> (V3, [i32; 3]) {
     let mut folded = *x;
     let mut image = [0; 3];
     for k in 0..3 {
@@ -143,7 +143,7 @@ impl Cells {
     /// Calls `found(other, periods)` for every member on this or a coarser level that may be near member `i`
     /// (same level: higher numbers only); `periods` is what to add to the other's place.
     #[inline]
-    pub fn around(&self, members: &[Member], i: usize, mut found: impl FnMut(u32, [i32; 3])) {
+    pub(crate) fn around(&self, members: &[Member], i: usize, mut found: impl FnMut(u32, [i32; 3])) {
         let own = self.level[i] as usize;
         let m = &members[i];
         let (x, image) = fold(&m.position, &self.period);

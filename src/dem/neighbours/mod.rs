@@ -1,7 +1,7 @@
 //! Who may touch whom \[D6\]: cells in levels by size, pairs with a skin, in an order that depends on nothing
 //! but the members' numbers.
 
-pub mod cells;
-pub mod pairs;
+pub(crate) mod cells;
+pub(crate) mod pairs;
 
 pub use pairs::PairList;

@@ -73,7 +73,7 @@ impl PairList {
     }
 
     /// For every pair of `self`, where the same pair is in `old`.
-    pub fn matches<'a>(&'a self, old: &'a PairList) -> impl Iterator<Item = (usize, usize)> + 'a {
+    pub(crate) fn matches<'a>(&'a self, old: &'a PairList) -> impl Iterator<Item = (usize, usize)> + 'a {
         let mut o = 0;
         self.pairs.iter().enumerate().filter_map(move |(n, p)| {
             while o < old.pairs.len() && old.pairs[o] < *p {

@@ -4,10 +4,10 @@
 //! memory; see [`order_by_place`].
 
 pub mod lattice;
-pub mod random;
-pub mod region;
+pub(crate) mod random;
+pub(crate) mod region;
 pub mod scatter;
-pub mod sizes;
+pub(crate) mod sizes;
 
 use super::{Sphere, V3};
 pub use lattice::{Lattice, lattice};
@@ -18,7 +18,7 @@ pub use sizes::Sizes;
 
 /// Sorts spheres along the Morton curve of cells of edge `cell`: neighbours in space become neighbours in memory,
 /// which is what keeps the cost per grain from growing with their number.
-pub fn order_by_place(spheres: &mut [Sphere], cell: f64) {
+pub(crate) fn order_by_place(spheres: &mut [Sphere], cell: f64) {
     let low = spheres.iter().fold(V3::repeat(f64::MAX), |l, s| l.inf(&s.centre));
     let spread = |x: f64| {
         let n = (x / cell) as u64 & 0x1F_FFFF;

@@ -38,7 +38,7 @@ impl Region {
     ///
     /// # Errors
     /// Sizes that are not above zero, numbers that are not finite.
-    pub fn check(&self) -> Result<(), DemError> {
+    pub(crate) fn check(&self) -> Result<(), DemError> {
         let (what, found) = match self {
             Region::Box { low, high } => ("smallest edge of the box (m)", (high - low).min()),
             Region::Sphere { radius, .. } => ("radius of the sphere (m)", *radius),
@@ -58,7 +58,7 @@ impl Region {
     }
 
     /// Box around the place.
-    pub fn bounds(&self) -> (V3, V3) {
+    pub(crate) fn bounds(&self) -> (V3, V3) {
         match *self {
             Region::Box { low, high } => (low, high),
             Region::Sphere { centre, radius } => (centre - V3::repeat(radius), centre + V3::repeat(radius)),
@@ -72,7 +72,7 @@ impl Region {
     }
 
     /// m³.
-    pub fn volume(&self) -> f64 {
+    pub(crate) fn volume(&self) -> f64 {
         let pi = std::f64::consts::PI;
         match *self {
             Region::Box { low, high } => (high - low).product(),
@@ -82,7 +82,7 @@ impl Region {
     }
 
     /// Whether a ball at `x` lies wholly inside.
-    pub fn holds(&self, x: &V3, radius: f64) -> bool {
+    pub(crate) fn holds(&self, x: &V3, radius: f64) -> bool {
         match *self {
             Region::Box { low, high } => (x - low).min() >= radius && (high - x).min() >= radius,
             Region::Sphere { centre, radius: r } => (x - centre).norm() + radius <= r,
@@ -96,7 +96,7 @@ impl Region {
     }
 
     /// A random point of the box around the place, at least `radius` from that box's faces.
-    pub fn point(&self, random: &mut Random, radius: f64) -> V3 {
+    pub(crate) fn point(&self, random: &mut Random, radius: f64) -> V3 {
         let (low, high) = self.bounds();
         V3::from_fn(|k, _| low[k] + radius + random.unit() * (high[k] - low[k] - 2.0 * radius))
     }

@@ -37,7 +37,7 @@ impl Sizes {
     ///
     /// # Errors
     /// Radii that are not above zero or not ascending; a curve that does not rise from 0 to 1.
-    pub fn check(&self) -> Result<(), DemError> {
+    pub(crate) fn check(&self) -> Result<(), DemError> {
         let fail = |what, found, allowed| Err(DemError::Packing { what, found, allowed });
         let above = |x: f64| x > 0.0 && x.is_finite();
         match self {
@@ -84,17 +84,8 @@ impl Sizes {
         }
     }
 
-    /// Largest radius that can come out, m.
-    pub fn largest(&self) -> f64 {
-        match self {
-            Sizes::One(r) => *r,
-            Sizes::Uniform { largest, .. } | Sizes::LogNormal { largest, .. } => *largest,
-            Sizes::Sieve(c) => 0.5 * c.last().map_or(0.0, |s| s.0),
-        }
-    }
-
     /// Draws a radius, m.
-    pub fn draw(&self, random: &mut Random) -> f64 {
+    pub(crate) fn draw(&self, random: &mut Random) -> f64 {
         match self {
             Sizes::One(r) => *r,
             Sizes::Uniform { least, largest } => least + random.unit() * (largest - least),

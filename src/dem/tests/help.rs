@@ -2,21 +2,21 @@
 
 use crate::dem::*;
 
-pub fn glass() -> Material {
+pub(crate) fn glass() -> Material {
     Material { name: "glass".into(), density_kg_m3: 2650.0, young_pa: 70e9, poisson: 0.22 }
 }
 
 /// Softer than glass by 1e4: contacts last 40 times longer.
-pub fn soft() -> Material {
+pub(crate) fn soft() -> Material {
     Material { name: "soft".into(), density_kg_m3: 2650.0, young_pa: 7e6, poisson: 0.22 }
 }
 
 /// Softer than glass by 100.
-pub fn firm() -> Material {
+pub(crate) fn firm() -> Material {
     Material { name: "firm".into(), young_pa: 7e8, ..soft() }
 }
 
-pub fn elastic() -> PairProperties {
+pub(crate) fn elastic() -> PairProperties {
     PairProperties {
         normal: NormalLaw::ViscoElastic { time_s: 0.0 },
         friction: 0.0,
@@ -25,16 +25,16 @@ pub fn elastic() -> PairProperties {
     }
 }
 
-pub fn setup(material: Material, pair: PairProperties) -> Setup {
+pub(crate) fn setup(material: Material, pair: PairProperties) -> Setup {
     Setup::new(Materials::single(material, pair))
 }
 
-pub fn floor() -> Wall {
+pub(crate) fn floor() -> Wall {
     Wall::fixed("floor", Surface::Plane { point: V3::zeros(), normal: V3::z() }, 0)
 }
 
 /// Two equal spheres flying at each other along x with relative speed `v`, just touching.
-pub fn head_on(mut s: Setup, radius: f64, v: f64) -> Setup {
+pub(crate) fn head_on(mut s: Setup, radius: f64, v: f64) -> Setup {
     let x = V3::x() * radius;
     s.grains = vec![
         Grain::sphere(radius, -x, 0).moving(V3::x() * (0.5 * v)),
@@ -45,7 +45,7 @@ pub fn head_on(mut s: Setup, radius: f64, v: f64) -> Setup {
 }
 
 /// Runs until the pair is apart again; returns restitution, duration and largest overlap.
-pub fn bounce(s: &Setup) -> (f64, f64, f64) {
+pub(crate) fn bounce(s: &Setup) -> (f64, f64, f64) {
     let mut d = Dem::new(s).unwrap();
     let v0 = (d.bodies().velocity[0] - d.bodies().velocity[1]).norm();
     let mut deepest = 0.0f64;
@@ -61,7 +61,7 @@ pub fn bounce(s: &Setup) -> (f64, f64, f64) {
 
 /// Contact mechanics with one statement wrong, or none.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Trial {
+pub(crate) enum Trial {
     Right,
     SpringNotRotated,
     NoCoulombCap,

@@ -1,12 +1,12 @@
 use super::help::*;
 use crate::dem::*;
 
-pub fn odd_clump() -> Clump {
+pub(crate) fn odd_clump() -> Clump {
     let s = |x: f64, y: f64, z: f64, radius: f64| Sphere { centre: V3::new(x, y, z), radius };
     Clump::new("odd", &[s(0.0, 0.0, 0.0, 1.0), s(1.2, 0.3, 0.1, 0.8), s(0.1, 1.3, -0.2, 0.6)]).unwrap()
 }
 
-pub fn spinning(spin: V3, dt: f64, integrator: Integrator) -> Setup {
+pub(crate) fn spinning(spin: V3, dt: f64, integrator: Integrator) -> Setup {
     let mut s = setup(soft(), elastic());
     s.clumps = vec![odd_clump()];
     s.grains = vec![Grain::clump(0, 5e-3, V3::zeros(), Orientation::identity(), 0).spinning(spin)];
@@ -29,7 +29,7 @@ fn conserves_clump_free() {
 }
 
 /// Complete elliptic integral of the first kind by the arithmetic–geometric mean, parameter m = k².
-pub fn elliptic_k(m: f64) -> f64 {
+pub(crate) fn elliptic_k(m: f64) -> f64 {
     let (mut a, mut g) = (1.0, (1.0 - m).sqrt());
     while (a - g).abs() > 1e-15 * a {
         (a, g) = (0.5 * (a + g), (a * g).sqrt());
@@ -38,7 +38,7 @@ pub fn elliptic_k(m: f64) -> f64 {
 }
 
 /// Period of the components about the outer axes, T = 4 K(m)/λ (Landau & Lifshitz, Mechanics §37).
-pub fn free_period(i: V3, w: V3) -> f64 {
+pub(crate) fn free_period(i: V3, w: V3) -> f64 {
     let l2 = (0..3).map(|k| i[k] * i[k] * w[k] * w[k]).sum::<f64>();
     let e2 = (0..3).map(|k| i[k] * w[k] * w[k]).sum::<f64>();
     // Ascending moments; the case L² > 2 E I₂ is written out, the other follows by swapping 1 and 3.

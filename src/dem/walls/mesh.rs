@@ -95,13 +95,13 @@ impl Mesh {
     ///
     /// # Errors
     /// As [`Mesh::new`]: a scale that makes corners infinite or areas vanish.
-    pub fn moved(&self, scale: f64, shift: V3) -> Result<Self, DemError> {
+    pub(crate) fn moved(&self, scale: f64, shift: V3) -> Result<Self, DemError> {
         let corners: Vec<V3> = self.vertices.iter().map(|v| v * scale + shift).collect();
         Self::new(&corners, &self.triangles)
     }
 
     /// Triangles whose box is within `reach` of `x`, ascending.
-    pub fn within(&self, x: &V3, reach: f64) -> Vec<u32> {
+    pub(crate) fn within(&self, x: &V3, reach: f64) -> Vec<u32> {
         let mut found = Vec::new();
         self.tree.within(x, reach, &mut found);
         found.sort_unstable();
@@ -109,7 +109,7 @@ impl Mesh {
     }
 
     /// Smallest box around the mesh.
-    pub fn bounds(&self) -> (V3, V3) {
+    pub(crate) fn bounds(&self) -> (V3, V3) {
         self.tree.bounds()
     }
 
@@ -117,7 +117,7 @@ impl Mesh {
     ///
     /// A face's own nearest point is a local minimum. A point on an edge or corner is one only if no triangle
     /// sharing that edge or corner comes nearer; triangles that agree on the point give one contact together.
-    pub fn near(&self, x: &V3, reach: f64, triangles: Option<&[u32]>, out: &mut Vec<Near>) {
+    pub(crate) fn near(&self, x: &V3, reach: f64, triangles: Option<&[u32]>, out: &mut Vec<Near>) {
         let queried;
         let list = match triangles {
             Some(t) => t,

@@ -32,7 +32,7 @@ impl Mesh {
     ///
     /// # Errors
     /// Truncated data, numbers that cannot be read, no triangle.
-    pub fn from_stl(bytes: &[u8]) -> Result<Self, DemError> {
+    pub(crate) fn from_stl(bytes: &[u8]) -> Result<Self, DemError> {
         let announced = bytes.get(80..84).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
         let fits = announced.is_some_and(|n| bytes.len() as u64 == 84 + 50 * u64::from(n));
         if !fits && bytes.trim_ascii_start().starts_with(b"solid") {
@@ -67,7 +67,7 @@ impl Mesh {
     ///
     /// # Errors
     /// Numbers that cannot be read, corner numbers out of range, no triangle.
-    pub fn from_obj(text: &str) -> Result<Self, DemError> {
+    pub(crate) fn from_obj(text: &str) -> Result<Self, DemError> {
         let (mut corners, mut faces): (Vec<V3>, Vec<[u32; 3]>) = (Vec::new(), Vec::new());
         for (k, line) in text.lines().enumerate() {
             let mut words = line.split_whitespace();

@@ -18,7 +18,7 @@ struct Node {
 
 /// The tree.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Tree {
+pub(crate) struct Tree {
     nodes: Vec<Node>,
     order: Vec<u32>,
 }
@@ -53,12 +53,12 @@ impl Tree {
     }
 
     /// Box around everything.
-    pub fn bounds(&self) -> (V3, V3) {
+    pub(crate) fn bounds(&self) -> (V3, V3) {
         (self.nodes[0].low, self.nodes[0].high)
     }
 
     /// Triangles of leaves within `reach` of `x`, in the order of the tree.
-    pub fn within(&self, x: &V3, reach: f64, found: &mut Vec<u32>) {
+    pub(crate) fn within(&self, x: &V3, reach: f64, found: &mut Vec<u32>) {
         let mut stack = vec![0u32];
         while let Some(n) = stack.pop() {
             let node = &self.nodes[n as usize];

@@ -1,11 +1,11 @@
 //! Scenery that grains touch and that grains do not move \[D5\]: planes, boxes, cylinders, spheres, meshes,
 //! each at rest or moving in a given way.
 
-pub mod mesh;
-pub mod mesh_read;
-pub mod mesh_tree;
-pub mod pass;
-pub mod shapes;
+pub(crate) mod mesh;
+pub(crate) mod mesh_read;
+pub(crate) mod mesh_tree;
+pub(crate) mod pass;
+pub(crate) mod shapes;
 
 use super::{DemError, Orientation, V3};
 pub use mesh::Mesh;
@@ -80,7 +80,7 @@ pub struct WallMotion {
 
 impl WallMotion {
     /// At rest.
-    pub fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Self { velocity: V3::zeros(), spin: V3::zeros(), about: V3::zeros() }
     }
 }
@@ -108,7 +108,7 @@ impl Wall {
     ///
     /// # Errors
     /// Numbers that are not finite, zero directions, sizes that are not above zero.
-    pub fn checked(mut self) -> Result<Self, DemError> {
+    pub(crate) fn checked(mut self) -> Result<Self, DemError> {
         let name = self.name.clone();
         let fail = |what| Err(DemError::Wall { wall: name.clone(), what });
         let finite = |v: &V3| v.iter().all(|x| x.is_finite());
@@ -154,7 +154,7 @@ impl Wall {
     }
 
     /// Whether the motion changes where the surface is (a drum turning about its axis does not).
-    pub fn shifts(&self) -> bool {
+    pub(crate) fn shifts(&self) -> bool {
         let m = &self.motion;
         let (still, straight) = (m.velocity == V3::zeros(), m.spin == V3::zeros());
         if still && straight {
@@ -190,7 +190,7 @@ impl Default for Pose {
 
 /// A point of a wall near a member.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Near {
+pub(crate) struct Near {
     /// From the wall to the member's centre, unit length.
     pub normal: V3,
     /// Distance of the member's centre from the wall along `normal`, m; negative behind it.
@@ -200,7 +200,7 @@ pub struct Near {
 }
 
 /// Collects the points of `wall` nearer to `x` than `reach`; `triangles` restricts a mesh.
-pub fn near(
+pub(crate) fn near(
     wall: &Wall,
     pose: &Pose,
     moved: bool,
@@ -223,7 +223,7 @@ pub fn near(
 
 /// Velocity of the wall's material at point `x`.
 #[inline]
-pub fn surface_velocity(wall: &Wall, pose: &Pose, x: &V3) -> V3 {
+pub(crate) fn surface_velocity(wall: &Wall, pose: &Pose, x: &V3) -> V3 {
     let m = &wall.motion;
     m.velocity + m.spin.cross(&(x - m.about - pose.shift))
 }

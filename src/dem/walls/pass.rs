@@ -90,7 +90,7 @@ impl Scenery {
     }
 
     /// Puts the walls where they are at `time` (a function of time alone: no drift, nothing to store).
-    pub fn set_time(&mut self, time: f64) {
+    pub(crate) fn set_time(&mut self, time: f64) {
         for k in 0..self.walls.len() {
             let m = &self.walls[k].motion;
             let axis_angle = m.spin * time;
@@ -109,7 +109,7 @@ impl Scenery {
     }
 
     /// Members that may touch a wall before they move half a skin; keeps the contacts of `old`.
-    pub fn list(
+    pub(crate) fn list(
         &self,
         members: &[Member],
         period: &[Option<f64>; 3],

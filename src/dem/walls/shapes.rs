@@ -11,7 +11,7 @@ use crate::dem::V3;
 /// docs/method.md \[D5\].
 /// # Verified by
 /// `wall_shapes_nearest_points`, `mesh_edge_gives_one_contact`.
-pub fn near(surface: &Surface, x: &V3, reach: f64, triangles: Option<&[u32]>, out: &mut Vec<Near>) {
+pub(crate) fn near(surface: &Surface, x: &V3, reach: f64, triangles: Option<&[u32]>, out: &mut Vec<Near>) {
     let (normal, distance) = match surface {
         Surface::Plane { point, normal } => (*normal, (x - point).dot(normal)),
         Surface::Cylinder { point, axis, radius, half_length, side } => {

@@ -7,11 +7,11 @@ use crate::free_surface::Kind;
 /// Bits of [`Cells::touches`].
 pub mod touch {
     /// A gas neighbour.
-    pub const GAS: u8 = 1;
+    pub(crate) const GAS: u8 = 1;
     /// A liquid neighbour.
-    pub const LIQUID: u8 = 2;
+    pub(crate) const LIQUID: u8 = 2;
     /// A wall or solid.
-    pub const WALL: u8 = 4;
+    pub(crate) const WALL: u8 = 4;
 }
 
 /// The cells of a run, by number in the box, between streaming and the next collision.

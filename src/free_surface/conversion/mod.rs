@@ -19,14 +19,14 @@ pub use cells::{Cells, touch};
 use hand_on::{hand_on, move_parked, take_excess};
 use refill::refill;
 pub use refill::{Neighbourhood, mirrored, neighbourhood};
-pub use verdict::verdict;
+pub(crate) use verdict::verdict;
 
 /// Populations of one cell, f − w.
 type Cell = [f64; Q];
 
 /// What conversions did to the ledger.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Turnover {
+pub(crate) struct Turnover {
     /// Momentum of cells that became fluid less that of cells that became gas.
     pub momentum: VectorSum,
     /// Cells that changed kind.
@@ -37,7 +37,7 @@ pub struct Turnover {
 
 /// φ of an interface cell from its mass: m/ρ limited to 0..1.
 #[must_use]
-pub fn fill_of(mass: f64, rho: f64) -> f64 {
+pub(crate) fn fill_of(mass: f64, rho: f64) -> f64 {
     let fill = mass / rho;
     if fill > 1.0 {
         1.0
@@ -50,7 +50,7 @@ pub fn fill_of(mass: f64, rho: f64) -> f64 {
 
 /// Conversions, refill and excess of one step. `marks`: interface cells that fill or empty, before
 /// reverting. `parked`: excess without receiver, by cell.
-pub fn convert(
+pub(crate) fn convert(
     cells: &mut impl Cells,
     rules: &FreeSurface,
     marks: &BTreeMap<u32, Mark>,

@@ -11,7 +11,7 @@ use crate::lattice::{C, Q};
 use crate::setup::FreeSurface;
 
 /// Verdict on an interface cell \[F4\].
-pub fn verdict(cells: &impl Cells, rules: &FreeSurface, cell: usize, rho: f64) -> Mark {
+pub(crate) fn verdict(cells: &impl Cells, rules: &FreeSurface, cell: usize, rho: f64) -> Mark {
     let bits = cells.touches(cell);
     let touches = Touches {
         gas: bits & touch::GAS != 0,

@@ -14,7 +14,7 @@ const GOOD: f64 = 4.0;
 /// Radius in cells from which grains are worth resolving at all.
 const FAIR: f64 = 2.0;
 /// Random packing of equal spheres; mixtures pack a little denser.
-pub const PACKING: f64 = 0.64;
+pub(crate) const PACKING: f64 = 0.64;
 
 /// Grains of about one size.
 #[derive(Clone, Debug, PartialEq, Serialize)]

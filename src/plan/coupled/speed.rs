@@ -10,11 +10,11 @@ use crate::scene::Scene;
 ///
 /// # Source
 /// Beris, Tsamopoulos, Armstrong & Brown 1985, J. Fluid Mech. 158, 219: 2πR²σ0/F = 0.143.
-pub const HELD_ABOVE: f64 = 0.143 / 3.0;
+pub(crate) const HELD_ABOVE: f64 = 0.143 / 3.0;
 
 /// σ0/(|ρs − ρ| g d); infinite without a weight.
 #[must_use]
-pub fn yield_number(curve: &dyn FlowCurve, excess: f64, gravity: f64, diameter: f64) -> f64 {
+pub(crate) fn yield_number(curve: &dyn FlowCurve, excess: f64, gravity: f64, diameter: f64) -> f64 {
     let sigma0 = curve.plastic_stress();
     let weight = excess.abs() * gravity * diameter;
     if sigma0 == 0.0 {
@@ -33,7 +33,7 @@ pub fn yield_number(curve: &dyn FlowCurve, excess: f64, gravity: f64, diameter: 
 /// # Arguments
 /// `excess`: ρs − ρ, kg/m³; `density`: of the fluid; `gravity`, m/s²; `diameter`, m.
 #[must_use]
-pub fn terminal(curve: &dyn FlowCurve, density: f64, excess: f64, gravity: f64, diameter: f64) -> f64 {
+pub(crate) fn terminal(curve: &dyn FlowCurve, density: f64, excess: f64, gravity: f64, diameter: f64) -> f64 {
     let held = yield_number(curve, excess, gravity, diameter) / HELD_ABOVE;
     let cube = diameter * diameter * diameter;
     let pull = std::f64::consts::PI / 6.0 * cube * excess.abs() * gravity * (1.0 - held);
@@ -60,7 +60,7 @@ pub fn terminal(curve: &dyn FlowCurve, density: f64, excess: f64, gravity: f64, 
 /// Speed of a grain relative to the fluid around it, m/s: terminal, or what it gains by falling through air before it
 /// reaches the fluid, whichever is more.
 #[must_use]
-pub fn relative(facts: &Facts, setup: &Setup, cells: &Cells, grain: &Grain) -> f64 {
+pub(crate) fn relative(facts: &Facts, setup: &Setup, cells: &Cells, grain: &Grain) -> f64 {
     let scene = facts.scene;
     let density = scene.fluid.density_kg_per_m3;
     let own = setup.materials.list[grain.material].density_kg_m3;

@@ -12,7 +12,7 @@ use std::fmt;
 use std::ops::Range;
 
 pub use numbers::GrainNumbers;
-pub use place::COLUMNS;
+pub(crate) use place::COLUMNS;
 pub use walls::Walls;
 
 use super::error::{PlanError, PlanProblem};

@@ -245,7 +245,7 @@ fn packing_error(error: DemError) -> PlanProblem {
 }
 
 /// Columns of a table of grains, in the order they are written.
-pub const COLUMNS: [(&str, &str); 14] = [
+pub(crate) const COLUMNS: [(&str, &str); 14] = [
     ("x", "m"),
     ("y", "m"),
     ("z", "m"),

@@ -88,7 +88,7 @@ impl Case {
 
     /// What the reference itself is known to: errors below it say nothing.
     #[must_use]
-    pub const fn reference_error(self) -> f64 {
+    pub(crate) const fn reference_error(self) -> f64 {
         match self {
             // (h/L)² at the start, the tolerance of claim `dam-break-viscous-planar`.
             Self::DamBreak => 0.0625,
@@ -345,7 +345,7 @@ impl Work {
     ///
     /// # Errors
     /// The golden files were not what the study writes when lahar was built.
-    pub fn built_in() -> Result<Self, serde_json::Error> {
+    pub(crate) fn built_in() -> Result<Self, serde_json::Error> {
         let points =
             serde_json::from_str(include_str!("../../../golden/exhibits/work-precision-points.json"))?;
         let speeds =

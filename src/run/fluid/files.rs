@@ -59,7 +59,7 @@ impl<'a> Files<'a> {
     ///
     /// # Errors
     /// I/O.
-    pub fn snapshot<'b>(
+    pub(crate) fn snapshot<'b>(
         &mut self,
         shot: &Shot<'_>,
         probes: impl Iterator<Item = &'b Probe>,

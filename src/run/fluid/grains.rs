@@ -37,12 +37,12 @@ impl<'a> InFluid<'a> {
     }
 
     /// The grains as they are at `time`, s.
-    pub fn grains<'b>(&'b self, grains: &'b Immersed, time: f64) -> Grains<'b> {
+    pub(crate) fn grains<'b>(&'b self, grains: &'b Immersed, time: f64) -> Grains<'b> {
         Grains { view: self.population.view(grains.dem(), time), plan: &self.coupled.grains }
     }
 
     /// Takes out the free grains that are wholly beyond an open face.
-    pub fn take_out(&mut self, run: &mut dyn Run) {
+    pub(crate) fn take_out(&mut self, run: &mut dyn Run) {
         let leaving = run.grains().and_then(|grains| self.population.leaving(grains.dem()));
         let Some(leaving) = leaving else { return };
         run.leave(&leaving.stays);
@@ -52,7 +52,7 @@ impl<'a> InFluid<'a> {
     }
 
     /// Writes grains, contacts and walls.
-    pub fn snapshot(&mut self, grains: &Immersed, time: f64) -> Result<(), OutputError> {
+    pub(crate) fn snapshot(&mut self, grains: &Immersed, time: f64) -> Result<(), OutputError> {
         self.files.snapshot(&self.population.view(grains.dem(), time))
     }
 
@@ -73,7 +73,7 @@ impl<'a> InFluid<'a> {
     }
 
     /// The books at a time, s.
-    pub fn part(&self, run: &dyn Run, units: &Units, time: f64) -> Option<CoupledPart> {
+    pub(crate) fn part(&self, run: &dyn Run, units: &Units, time: f64) -> Option<CoupledPart> {
         let grains = run.grains()?;
         let view = self.population.view(grains.dem(), time);
         Some(CoupledPart {

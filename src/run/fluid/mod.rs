@@ -54,7 +54,7 @@ impl<'a> Flow<'a> {
     ///
     /// # Errors
     /// The backend refuses the set-up.
-    pub fn start(
+    pub(crate) fn start(
         scene: &'a Scene,
         plan: &'a Plan,
         backend: &dyn Backend,

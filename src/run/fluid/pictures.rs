@@ -36,7 +36,7 @@ impl Plots<'_> {
     ///
     /// # Errors
     /// I/O.
-    pub fn draw(&self, probes: &Probes) -> Result<(), OutputError> {
+    pub(crate) fn draw(&self, probes: &Probes) -> Result<(), OutputError> {
         for ((_, columns), (probe, about_grains)) in self.recorder.groups().iter().zip(probes.iter()) {
             if !about_grains {
                 self.columns(probe, columns.clone())?;

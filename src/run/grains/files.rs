@@ -36,7 +36,7 @@ impl<'a> Files<'a> {
     }
 
     /// Grains, their spheres, contacts and walls now.
-    pub fn snapshot(&mut self, grains: &View<'_>) -> Result<(), OutputError> {
+    pub(crate) fn snapshot(&mut self, grains: &View<'_>) -> Result<(), OutputError> {
         let (pieces, faces) = (&self.plan.setup.walls, self.plan.walls.faces.len());
         // Spheres of clumps only where there are clumps; walls once, unless they move.
         let moving = self.written == 0 || pieces.iter().any(crate::dem::Wall::shifts);
@@ -105,7 +105,7 @@ impl<'a> Files<'a> {
     }
 
     /// One table per set, as a scene can read it.
-    pub fn tables(&self, grains: &View<'_>) -> Result<(), OutputError> {
+    pub(crate) fn tables(&self, grains: &View<'_>) -> Result<(), OutputError> {
         let b = grains.dem.bodies();
         for (name, range) in &self.plan.sets {
             let mut table = Series::new(&COLUMNS);

@@ -43,7 +43,11 @@ impl<'a> Dry<'a> {
     ///
     /// # Errors
     /// The method refuses the set-up.
-    pub fn start(scene: &'a DryScene, plan: &'a GrainPlan, recorder: &Recorder) -> Result<Self, RunError> {
+    pub(crate) fn start(
+        scene: &'a DryScene,
+        plan: &'a GrainPlan,
+        recorder: &Recorder,
+    ) -> Result<Self, RunError> {
         let refused = |error| RunError::Stopped(Box::new(stop::refused(&scene.file, &error)));
         let dem = Dem::new(&plan.setup).map_err(refused)?;
         let size_m = scene.domain.size_m;

@@ -43,27 +43,27 @@ impl Population {
     }
 
     /// The grains as they are at `time`, s.
-    pub fn view<'a>(&'a self, dem: &'a Dem, time: f64) -> View<'a> {
+    pub(crate) fn view<'a>(&'a self, dem: &'a Dem, time: f64) -> View<'a> {
         View { dem, setup: &self.setup, ids: &self.ids, left: self.left, start: self.start, time }
     }
 
     /// Whether grains can leave.
-    pub fn has_open_faces(&self) -> bool {
+    pub(crate) fn has_open_faces(&self) -> bool {
         self.open.iter().flatten().any(|open| *open)
     }
 
     /// Whether grains have left and no free one is there any more.
-    pub fn nothing_left(&self, dem: &Dem) -> bool {
+    pub(crate) fn nothing_left(&self, dem: &Dem) -> bool {
         self.left.number > 0 && self.view(dem, 0.0).free().next().is_none()
     }
 
     /// Number at time 0 of a grain.
-    pub fn number(&self, grain: usize) -> usize {
+    pub(crate) fn number(&self, grain: usize) -> usize {
         self.ids.get(grain).map_or(grain, |&id| id as usize)
     }
 
     /// The free grains that are wholly beyond an open face; `None` if there is none.
-    pub fn leaving(&self, dem: &Dem) -> Option<Leaving> {
+    pub(crate) fn leaving(&self, dem: &Dem) -> Option<Leaving> {
         let b = dem.bodies();
         let stays = |i: usize| {
             let reach = reach(dem, &self.setup, i);
@@ -84,12 +84,12 @@ impl Population {
     }
 
     /// Walls of the set-up.
-    pub fn walls(&self) -> usize {
+    pub(crate) fn walls(&self) -> usize {
         self.setup.walls.len()
     }
 
     /// Books grains that were taken out; `dem` is without them.
-    pub fn book(&mut self, leaving: &Leaving, dem: &Dem) {
+    pub(crate) fn book(&mut self, leaving: &Leaving, dem: &Dem) {
         keep_marked(&mut self.setup.grains, &leaving.stays);
         keep_marked(&mut self.ids, &leaving.stays);
         self.left.number += leaving.number;

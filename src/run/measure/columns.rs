@@ -28,13 +28,19 @@ pub(in crate::run) struct Column {
 
 impl Upright {
     /// The two axes across the columns, in alphabetical order.
-    pub fn across(self) -> [usize; 2] {
+    pub(crate) fn across(self) -> [usize; 2] {
         self.up.others()
     }
 
     /// All columns, the first of [`Self::across`] fastest. Only fluid above `above_m` counts; within a cell it
     /// is taken to lie at the bottom.
-    pub fn columns(self, setup: &Setup, fields: &Fields, units: &Units, above_m: Option<f64>) -> Vec<Column> {
+    pub(crate) fn columns(
+        self,
+        setup: &Setup,
+        fields: &Fields,
+        units: &Units,
+        above_m: Option<f64>,
+    ) -> Vec<Column> {
         let [a, b] = self.across();
         let mut columns = Vec::with_capacity(setup.extents[a] * setup.extents[b]);
         for ib in 0..setup.extents[b] {
@@ -48,7 +54,7 @@ impl Upright {
     }
 
     /// The column through a cell; what grains cover below fluid counts as depth.
-    pub fn column(
+    pub(crate) fn column(
         self,
         setup: &Setup,
         fields: &Fields,
@@ -102,7 +108,7 @@ impl Upright {
     }
 
     /// Height of the surface of a column, m: at least `above_m`.
-    pub fn surface(self, column: &Column, above_m: Option<f64>) -> f64 {
+    pub(crate) fn surface(self, column: &Column, above_m: Option<f64>) -> f64 {
         let base = match above_m {
             Some(above) if (above > column.bed) == self.down_is_low => above,
             _ => column.bed,

@@ -29,7 +29,7 @@ impl<'a> Contacts<'a> {
     }
 
     /// Adds the forces of a step of `dt_s` seconds.
-    pub fn sample(&mut self, grains: &Immersed, dt_s: f64) {
+    pub(crate) fn sample(&mut self, grains: &Immersed, dt_s: f64) {
         for (of, (_, walls)) in self.on.iter_mut().zip(&self.walls.solids) {
             let on = |wall: usize| grains.dem().force_on_wall(wall).0 + grains.lubrication_on_wall(wall);
             let force = walls.iter().fold(V3::zeros(), |sum, &wall| sum + on(wall));
@@ -41,14 +41,14 @@ impl<'a> Contacts<'a> {
     }
 
     /// Means and largest values start anew.
-    pub fn restart(&mut self) {
+    pub(crate) fn restart(&mut self) {
         for of in &mut self.on {
             *of = OnSolid { impulse: of.impulse, ..OnSolid::default() };
         }
     }
 
     /// Mean and largest force since the last row, impulse since time 0.
-    pub fn on(&self, solid: &str) -> Vec<Quantity> {
+    pub(crate) fn on(&self, solid: &str) -> Vec<Quantity> {
         let at = self.walls.solids.iter().position(|(name, _)| name == solid);
         let of = at.and_then(|k| self.on.get(k)).copied().unwrap_or_default();
         let mean = of.sum / of.steps.max(1) as f64;

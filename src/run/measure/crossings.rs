@@ -33,7 +33,7 @@ impl Crossings {
 
     /// Adds the free grains that have changed sides since the last look. The first look must be at time 0, when all
     /// grains are there.
-    pub fn look(&mut self, grains: &View<'_>) {
+    pub(crate) fn look(&mut self, grains: &View<'_>) {
         let b = grains.dem.bodies();
         if self.sides.is_empty() {
             self.sides = b.position.iter().map(|x| self.side(*x, grains)).collect();

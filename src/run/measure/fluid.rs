@@ -27,7 +27,7 @@ impl Frame {
     }
 
     /// Rows of a section along an axis of the bed: position, bed, depth, surface, mean velocity.
-    pub fn section(
+    pub(crate) fn section(
         &self,
         along: Axis,
         at_m: Option<f64>,
@@ -80,13 +80,13 @@ impl Fluid<'_> {
     }
 
     /// Velocity of the cell that holds a point.
-    pub fn point_velocity(&self, at_m: [f64; 3]) -> Vec<Quantity> {
+    pub(crate) fn point_velocity(&self, at_m: [f64; 3]) -> Vec<Quantity> {
         let (setup, units) = (self.run.setup(), &self.frame.units);
         let cell: [usize; 3] = std::array::from_fn(|a| layer(at_m[a], a, setup, units));
         vector("", "m/s", units.velocities_to_si(self.fields.velocity[setup.index(cell)]))
     }
 
-    pub fn max_speed(&self) -> Vec<Quantity> {
+    pub(crate) fn max_speed(&self) -> Vec<Quantity> {
         one("m/s", self.frame.units.velocity_to_si(max_speed(self.fields)))
     }
 
@@ -95,7 +95,7 @@ impl Fluid<'_> {
         one("J", self.run.totals().kinetic_energy * self.mass_unit() * velocity_unit * velocity_unit)
     }
 
-    pub fn mass(&self) -> Vec<Quantity> {
+    pub(crate) fn mass(&self) -> Vec<Quantity> {
         let mass = match self.run.ledger() {
             Some(ledger) => ledger.mass,
             None => self.run.fluid_cells() as f64 + self.run.totals().mass_excess,
@@ -109,16 +109,16 @@ impl Fluid<'_> {
         plug as f64 / self.run.fluid_cells().max(1) as f64
     }
 
-    pub fn plug_fraction(&self) -> Vec<Quantity> {
+    pub(crate) fn plug_fraction(&self) -> Vec<Quantity> {
         one("-", self.plug())
     }
 
-    pub fn yielded_fraction(&self) -> Vec<Quantity> {
+    pub(crate) fn yielded_fraction(&self) -> Vec<Quantity> {
         one("-", 1.0 - self.plug())
     }
 
     /// Volume per time through a layer of cells.
-    pub fn flow_rate(&self, normal: Axis, at_m: f64) -> Vec<Quantity> {
+    pub(crate) fn flow_rate(&self, normal: Axis, at_m: f64) -> Vec<Quantity> {
         let (setup, units, fields) = (self.run.setup(), &self.frame.units, self.fields);
         let at = layer(at_m, normal.index(), setup, units);
         let cells = (0..setup.cells()).filter(|&c| setup.coordinates(c)[normal.index()] == at);
@@ -126,7 +126,7 @@ impl Fluid<'_> {
         one("m^3/s", units.velocity_to_si(sum) * units.dx_m * units.dx_m)
     }
 
-    pub fn volume(&self) -> Vec<Quantity> {
+    pub(crate) fn volume(&self) -> Vec<Quantity> {
         let setup = self.run.setup();
         let fluid = |c: &usize| is_fluid(setup, self.fields, *c);
         let filled: f64 = (0..setup.cells()).filter(fluid).map(|c| fill(self.fields, c)).sum();
@@ -134,7 +134,7 @@ impl Fluid<'_> {
     }
 
     /// Farthest position at which the flow is deeper than a threshold.
-    pub fn front(
+    pub(crate) fn front(
         &self,
         along: Axis,
         threshold_m: f64,
@@ -161,7 +161,7 @@ impl Fluid<'_> {
     }
 
     /// Mean velocity of the fluid inside a box, and its volume.
-    pub fn window_velocity(&self, min_m: [f64; 3], max_m: [f64; 3]) -> Vec<Quantity> {
+    pub(crate) fn window_velocity(&self, min_m: [f64; 3], max_m: [f64; 3]) -> Vec<Quantity> {
         let (mean, volume) = window(self.run.setup(), self.fields, &self.frame.units, min_m, max_m);
         let mut row = vector("", "m/s", mean);
         row.extend(several([("volume", "m^3", volume)]));

@@ -28,16 +28,16 @@ impl Grains<'_> {
         one("J", self.view.dem.kinetic_energy())
     }
 
-    pub fn max_speed(&self) -> Vec<Quantity> {
+    pub(crate) fn max_speed(&self) -> Vec<Quantity> {
         one("m/s", self.view.max_speed())
     }
 
-    pub fn mass(&self) -> Vec<Quantity> {
+    pub(crate) fn mass(&self) -> Vec<Quantity> {
         let number = self.view.free().count() as f64;
         several([("mass", "kg", self.view.dem.ledger().mass), ("number", "-", number)])
     }
 
-    pub fn contacts(&self) -> Vec<Quantity> {
+    pub(crate) fn contacts(&self) -> Vec<Quantity> {
         let dem = self.view.dem;
         let pairs = dem.pair_counts().1 as f64;
         let walls: usize = dem.wall_contacts().iter().map(|near| near.contacts.len()).sum();
@@ -62,19 +62,19 @@ impl Grains<'_> {
         ])
     }
 
-    pub fn momentum(&self) -> Vec<Quantity> {
+    pub(crate) fn momentum(&self) -> Vec<Quantity> {
         vector("", "N s", self.view.dem.ledger().momentum.into())
     }
 
     /// The place of grain `number` of a set among those still there.
-    pub fn find(&self, set: &str, number: u64) -> Option<usize> {
+    pub(crate) fn find(&self, set: &str, number: u64) -> Option<usize> {
         let start = self.plan.sets.iter().find(|(name, _)| name == set).map_or(0, |(_, range)| range.start);
         let id = start as u64 + number;
         self.view.ids.iter().position(|&other| u64::from(other) == id)
     }
 
     /// Place, velocity and spin of one grain; NaN after it has left.
-    pub fn grain(&self, set: &str, number: u64) -> Vec<Quantity> {
+    pub(crate) fn grain(&self, set: &str, number: u64) -> Vec<Quantity> {
         let b = self.view.dem.bodies();
         let at = self.find(set, number);
         let of = |field: &[V3]| at.map_or([f64::NAN; 3], |i| field[i].into());
@@ -86,7 +86,7 @@ impl Grains<'_> {
     }
 
     /// Force and torque of the grains on what they push.
-    pub fn force(&self, on: &Target) -> Vec<Quantity> {
+    pub(crate) fn force(&self, on: &Target) -> Vec<Quantity> {
         let of = &self.plan.walls;
         let walls: Vec<usize> = match on {
             Target::Face(key) => of.faces.iter().filter(|(k, _)| k == key).map(|(_, w)| *w).collect(),
@@ -106,7 +106,7 @@ impl Grains<'_> {
     }
 
     /// Ends and height of a pile.
-    pub fn pile(&self, along: Axis, up: Option<Axis>, share: Option<f64>) -> Vec<Quantity> {
+    pub(crate) fn pile(&self, along: Axis, up: Option<Axis>, share: Option<f64>) -> Vec<Quantity> {
         let share = share.unwrap_or(SHARE);
         let (x, z) = (self.places(along), self.places(up.unwrap_or(Axis::Z)));
         several([
@@ -117,7 +117,7 @@ impl Grains<'_> {
     }
 
     /// Mean velocity and mean speed of a set.
-    pub fn set_speed(&self, set: &str) -> Vec<Quantity> {
+    pub(crate) fn set_speed(&self, set: &str) -> Vec<Quantity> {
         let b = self.view.dem.bodies();
         let range = self.plan.sets.iter().find(|(name, _)| name == set).map(|(_, range)| range.clone());
         let range = range.unwrap_or_default();
@@ -131,7 +131,7 @@ impl Grains<'_> {
     }
 
     /// Mean height of each size class, smallest grains first.
-    pub fn segregation(&self, up: Option<Axis>, classes: Option<u32>) -> Vec<Quantity> {
+    pub(crate) fn segregation(&self, up: Option<Axis>, classes: Option<u32>) -> Vec<Quantity> {
         let (b, up) = (self.view.dem.bodies(), up.unwrap_or(Axis::Z).index());
         let sized = self.view.free().map(|i| (b.radius[i], b.position[i][up])).collect();
         let means = class_means(sized, classes.unwrap_or(CLASSES) as usize);
@@ -141,7 +141,7 @@ impl Grains<'_> {
     }
 
     /// The place beyond which lies a share of the mass.
-    pub fn front(&self, along: Axis, share: Option<f64>) -> Vec<Quantity> {
+    pub(crate) fn front(&self, along: Axis, share: Option<f64>) -> Vec<Quantity> {
         one("m", quantile(self.places(along), 1.0 - share.unwrap_or(FRONT_SHARE)))
     }
 }

@@ -44,7 +44,7 @@ pub(super) struct Probes {
 impl Probes {
     /// Of a scene with fluid: largest speed and kinetic energy when nothing about the fluid has a column; and with
     /// grains what [`Self::of_grains`] says.
-    pub fn of_flow(scene: &Scene) -> Self {
+    pub(crate) fn of_flow(scene: &Scene) -> Self {
         let mut fluid = scene.output.probes.clone();
         if fluid.iter().all(|probe| probe.measure.is_file()) {
             fluid.push(named("max_speed", Measure::MaxSpeed));
@@ -58,17 +58,17 @@ impl Probes {
     }
 
     /// Of a scene without fluid: energies and contacts when it names none.
-    pub fn of_grains(scene: &DryScene) -> Self {
+    pub(crate) fn of_grains(scene: &DryScene) -> Self {
         Self { list: gauges(or_books(&scene.output.probes), Subject::Grains) }
     }
 
     /// The probes, and whether they are about grains.
-    pub fn iter(&self) -> impl Iterator<Item = (&Probe, bool)> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&Probe, bool)> {
         self.list.iter().map(|gauge| (&gauge.probe, gauge.probe.measure.is_about_grains(gauge.subject)))
     }
 
     /// The columns of every probe at one time.
-    pub fn row(&mut self, state: &State<'_>) -> Vec<(String, Vec<Quantity>)> {
+    pub(crate) fn row(&mut self, state: &State<'_>) -> Vec<(String, Vec<Quantity>)> {
         let row = |gauge: &mut Gauge| (gauge.probe.name.clone(), gauge.measure(state).unwrap_or_default());
         self.list.iter_mut().map(row).collect()
     }

@@ -15,7 +15,7 @@ pub(in crate::run) struct Quantity {
 
 impl Quantity {
     /// Name of the column.
-    pub fn column(&self, probe: &str) -> String {
+    pub(crate) fn column(&self, probe: &str) -> String {
         if self.part.is_empty() { probe.to_owned() } else { format!("{probe}_{}", self.part) }
     }
 }

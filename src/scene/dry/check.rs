@@ -13,7 +13,7 @@ use crate::scene::probe::Subject;
 use crate::scene::{KeyRule, SceneError, SceneProblem};
 
 /// Checks every value that can be judged without placing grains.
-pub fn check(scene: &DryScene) -> Result<(), SceneError> {
+pub(crate) fn check(scene: &DryScene) -> Result<(), SceneError> {
     let at = Checker { file: &scene.file };
     domain(&at, scene)?;
     if let Some(gravity) = &scene.gravity {
@@ -38,7 +38,7 @@ pub fn check(scene: &DryScene) -> Result<(), SceneError> {
 }
 
 /// Checks what a scene with fluid, seen as its grains see it, says about them, but for outputs.
-pub fn check_in_fluid(scene: &DryScene) -> Result<(), SceneError> {
+pub(crate) fn check_in_fluid(scene: &DryScene) -> Result<(), SceneError> {
     let at = Checker { file: &scene.file };
     materials(&at, scene)?;
     clumps(&at, scene)?;

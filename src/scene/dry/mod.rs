@@ -193,7 +193,7 @@ pub struct MeshFile {
 impl DryScene {
     /// Index of a material by name; the first one without a name, `None` for an unknown name.
     #[must_use]
-    pub fn material(&self, name: Option<&str>) -> Option<usize> {
+    pub(crate) fn material(&self, name: Option<&str>) -> Option<usize> {
         let Some(name) = name else { return Some(0) };
         self.grains.materials.iter().position(|material| material.name == name)
     }

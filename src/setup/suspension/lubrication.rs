@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 /// Largest share of a pair's reduced mass over the grains' step that the friction of a gap may reach: an explicit
 /// step overshoots beyond 2 and is accurate far below. Sub-steps are planned for it, and runs are held to it.
-pub const STIFFEST: f64 = 0.5;
+pub(crate) const STIFFEST: f64 = 0.5;
 
 /// 6πμ (r₁r₂/(r₁+r₂))² (1/h − 1/h_c): normal friction of a gap, force per velocity of approach.
 ///

@@ -5,7 +5,7 @@ use crate::units::Units;
 use std::sync::Arc;
 
 mod equations;
-pub mod lubrication;
+pub(crate) mod lubrication;
 
 pub use equations::{CouplingEquations, StandardCoupling};
 

@@ -6,7 +6,7 @@ use super::layout::{Layout, NONE};
 use super::stores;
 
 /// The populations around a block: 27 slices, the block's own where there is none.
-pub struct Around<'a, E> {
+pub(crate) struct Around<'a, E> {
     /// As [`Layout::around`].
     pub slices: [&'a [E]; 27],
 }
@@ -27,14 +27,19 @@ impl<'a, E: Element> Around<'a, E> {
 
     /// Around the block after this one, if there is one that holds anything.
     #[inline]
-    pub fn next(old: &'a [Aligned<E>], layout: &Layout, blocks: &[Block], number: usize) -> Option<Self> {
+    pub(crate) fn next(
+        old: &'a [Aligned<E>],
+        layout: &Layout,
+        blocks: &[Block],
+        number: usize,
+    ) -> Option<Self> {
         let next = old.get(number + 1)?;
         (next.get().len() == old[number].get().len()).then(|| Self::new(old, layout, blocks, number + 1))
     }
 
     /// The populations of one of the 27.
     #[inline(always)]
-    pub fn entry(&self, at: usize) -> &'a [E] {
+    pub(crate) fn entry(&self, at: usize) -> &'a [E] {
         stores::entry(&self.slices, at)
     }
 }

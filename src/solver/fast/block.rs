@@ -7,7 +7,7 @@ use crate::setup::Setup;
 
 /// A cell by the place of its block and its place in the block; blocks may come and go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
+pub(crate) struct Place {
     /// Place of the block in [`Layout`].
     pub block: u32,
     /// Place in the block.
@@ -16,7 +16,7 @@ pub struct Place {
 
 /// Where an irregular population comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Origin {
+pub(crate) enum Origin {
     /// Population `direction` of another cell.
     Cell {
         /// Its cell.
@@ -38,7 +38,7 @@ pub enum Origin {
 
 /// One irregular link: population `direction` of a cell does not come from the cell the grid names.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Link {
+pub(crate) struct Link {
     /// Cell, place in the block.
     pub local: u16,
     /// Arriving direction.
@@ -51,7 +51,7 @@ pub struct Link {
 
 /// A cell with a wall or open link.
 #[derive(Clone, Debug)]
-pub struct RimCell {
+pub(crate) struct RimCell {
     /// Place in the block.
     pub local: u16,
     /// Bit i: the link towards c_i hits a wall.
@@ -66,7 +66,7 @@ pub struct RimCell {
 
 /// The parts of a block that follow from the set-up alone.
 #[derive(Clone, Debug)]
-pub struct Block {
+pub(crate) struct Block {
     /// Its place in [`Layout`].
     pub place: usize,
     /// Cells per pack.
@@ -87,7 +87,7 @@ pub struct Block {
 
 /// The list of wall velocities of a run.
 #[derive(Clone, Debug, Default)]
-pub struct Velocities {
+pub(crate) struct Velocities {
     /// Lattice units.
     pub list: Vec<[f64; 3]>,
 }
@@ -214,7 +214,7 @@ impl Block {
 
     /// Whether a cell lies in the box and is not solid.
     #[must_use]
-    pub fn is_usable(&self, local: usize) -> bool {
+    pub(crate) fn is_usable(&self, local: usize) -> bool {
         let width = self.width();
         self.usable.get(local / width).is_some_and(|lanes| lanes >> (local % width) & 1 != 0)
     }
@@ -224,7 +224,7 @@ impl Block {
     }
 
     /// Gives everything up; nothing of the block is used after that.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.usable = Vec::new();
         self.links = Vec::new();
         self.first_link = Vec::new();
@@ -235,7 +235,7 @@ impl Block {
     /// Irregular links of a cell, in order of the directions.
     #[inline]
     #[must_use]
-    pub fn links_of_cell(&self, local: usize, width: usize) -> &[Link] {
+    pub(crate) fn links_of_cell(&self, local: usize, width: usize) -> &[Link] {
         let links = self.links_of(local / width);
         let first = links.partition_point(|link| usize::from(link.local) < local);
         let last = links.partition_point(|link| usize::from(link.local) <= local);
@@ -245,13 +245,13 @@ impl Block {
     /// Links of a pack.
     #[inline(always)]
     #[must_use]
-    pub fn links_of(&self, pack: usize) -> &[Link] {
+    pub(crate) fn links_of(&self, pack: usize) -> &[Link] {
         &self.links[self.first_link[pack] as usize..self.first_link[pack + 1] as usize]
     }
 
     /// Bytes held.
     #[must_use]
-    pub fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         (size_of::<Self>()
             + self.usable.capacity() * size_of::<u16>()
             + self.links.capacity() * size_of::<Link>()
@@ -263,7 +263,7 @@ impl Block {
 
 /// Source of population `i` of a cell.
 #[must_use]
-pub fn source(setup: &Setup, record: Option<&BoundaryCell>, cell: usize, i: usize) -> Source {
+pub(crate) fn source(setup: &Setup, record: Option<&BoundaryCell>, cell: usize, i: usize) -> Source {
     match record {
         Some(record) => record.sources[i],
         None => {
@@ -286,7 +286,7 @@ pub fn source(setup: &Setup, record: Option<&BoundaryCell>, cell: usize, i: usiz
 
 /// Place of a cell by its number in the box.
 #[must_use]
-pub fn place_of(setup: &Setup, layout: &Layout, cell: usize) -> Place {
+pub(crate) fn place_of(setup: &Setup, layout: &Layout, cell: usize) -> Place {
     let (block, local) = layout.find(setup.coordinates(cell));
     Place { block: block as u32, local: local as u32 }
 }
@@ -336,7 +336,7 @@ fn is_plain(setup: &Setup, layout: &Layout, place: usize) -> bool {
 
 /// Block numbers around a place.
 #[must_use]
-pub fn numbers_around(layout: &Layout, place: usize) -> [u32; 27] {
+pub(crate) fn numbers_around(layout: &Layout, place: usize) -> [u32; 27] {
     layout.around(place).map(|at| layout.block_at(at))
 }
 

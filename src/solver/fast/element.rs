@@ -3,10 +3,10 @@
 use crate::lattice::Q;
 
 /// Bytes of a cache line.
-pub const LINE_BYTES: usize = 64;
+pub(crate) const LINE_BYTES: usize = 64;
 
 /// Most cells side by side: a line of f32.
-pub const MOST: usize = 16;
+pub(crate) const MOST: usize = 16;
 
 /// A stored population, f − w.
 pub trait Element: Copy + Default + Send + Sync + PartialEq + 'static {
@@ -50,7 +50,7 @@ impl Element for f32 {
 
 /// Numbers that start at a cache line.
 #[derive(Clone, Debug, Default)]
-pub struct Aligned<E> {
+pub(crate) struct Aligned<E> {
     data: Vec<E>,
     start: usize,
     len: usize,
@@ -59,7 +59,7 @@ pub struct Aligned<E> {
 impl<E: Element> Aligned<E> {
     /// `len` zeros.
     #[must_use]
-    pub fn zeros(len: usize) -> Self {
+    pub(crate) fn zeros(len: usize) -> Self {
         let data = vec![E::default(); len + E::PER_LINE];
         // Falls back to the first number where the address cannot be known; only speed depends on it.
         let start = match data.as_ptr().align_offset(LINE_BYTES) {
@@ -72,25 +72,25 @@ impl<E: Element> Aligned<E> {
     /// The numbers.
     #[inline(always)]
     #[must_use]
-    pub fn get(&self) -> &[E] {
+    pub(crate) fn get(&self) -> &[E] {
         &self.data[self.start..self.start + self.len]
     }
 
     /// The numbers.
     #[inline(always)]
-    pub fn get_mut(&mut self) -> &mut [E] {
+    pub(crate) fn get_mut(&mut self) -> &mut [E] {
         &mut self.data[self.start..self.start + self.len]
     }
 
     /// Whether nothing is held.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.len == 0
     }
 
     /// Bytes held.
     #[must_use]
-    pub fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         (self.data.len() * size_of::<E>()) as u64
     }
 }
@@ -101,6 +101,6 @@ impl<E: Element> Aligned<E> {
 /// front to back, on one page after the other, instead of on 38 pages at once.
 #[inline(always)]
 #[must_use]
-pub const fn index<E: Element>(local: usize, i: usize) -> usize {
+pub(crate) const fn index<E: Element>(local: usize, i: usize) -> usize {
     (local / E::PER_LINE * Q + i) * E::PER_LINE + local % E::PER_LINE
 }

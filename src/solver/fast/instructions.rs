@@ -58,7 +58,7 @@ impl Instructions {
 
 /// Instruction sets that are known to be present.
 #[derive(Clone, Copy, Debug)]
-pub struct Chosen(Instructions);
+pub(crate) struct Chosen(Instructions);
 
 impl Chosen {
     /// The one asked for, or the best one; `None` if the processor does not have it.
@@ -73,20 +73,20 @@ impl Chosen {
 
     /// Which one.
     #[must_use]
-    pub const fn get(self) -> Instructions {
+    pub(crate) const fn get(self) -> Instructions {
         self.0
     }
 }
 
 /// A collision of one block.
-pub type Collide<P, E> = fn(Chosen, &Task<P, E>, &mut Own<E>) -> Outcome;
+pub(crate) type Collide<P, E> = fn(Chosen, &Task<P, E>, &mut Own<E>) -> Outcome;
 
 /// An exchange of one block: all its interface cells.
-pub type Exchange<P, E> = fn(Chosen, &Streaming<P, E>, &Near<E>, &mut [InterfaceCell], &mut Entries);
+pub(crate) type Exchange<P, E> = fn(Chosen, &Streaming<P, E>, &Near<E>, &mut [InterfaceCell], &mut Entries);
 
 /// The passes over one block of a run, in its precision.
 #[derive(Clone, Copy)]
-pub struct Passes<P, E> {
+pub(crate) struct Passes<P, E> {
     /// Gather, collide, store: see [`pass`].
     pub collide: Collide<P, E>,
     /// Streams the interface cells: see [`stream_block`].
@@ -191,18 +191,18 @@ fn exchange_stored<P: Physics>(
 
 impl<P: Physics> Passes<P, f64> {
     /// Everything in f64.
-    pub const DOUBLE: Self = Self { collide: collide_double, exchange: exchange_double };
+    pub(crate) const DOUBLE: Self = Self { collide: collide_double, exchange: exchange_double };
 }
 
 impl<P: Physics> Passes<P, f32> {
     /// Stored and collided in f32.
-    pub const SINGLE: Self = Self { collide: collide_single, exchange: exchange_stored };
+    pub(crate) const SINGLE: Self = Self { collide: collide_single, exchange: exchange_stored };
     /// Stored in f32, collided in f64.
-    pub const STORED: Self = Self { collide: collide_stored, exchange: exchange_stored };
+    pub(crate) const STORED: Self = Self { collide: collide_stored, exchange: exchange_stored };
 }
 
 /// Wall corrections of cells side by side, see [`correct_group`]; in f64 whatever is stored.
-pub fn walls<P: Physics>(chosen: Chosen, task: &WallTask<P>, columns: &mut Columns, alike: &Alike) {
+pub(crate) fn walls<P: Physics>(chosen: Chosen, task: &WallTask<P>, columns: &mut Columns, alike: &Alike) {
     compiled!(
         [P: Physics](task: &WallTask<P>, columns: &mut Columns, alike: &Alike),
         chosen, correct_group, super::registers::Double<2>, Sse2 Avx2 Avx512

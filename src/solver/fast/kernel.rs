@@ -29,7 +29,10 @@ const FAR: usize = 16;
 
 /// Collides every fluid cell of a block.
 #[inline(always)]
-pub fn pass<R: Registers, P: Physics>(task: &Task<P, R::Element>, own: &mut Own<R::Element>) -> Outcome {
+pub(crate) fn pass<R: Registers, P: Physics>(
+    task: &Task<P, R::Element>,
+    own: &mut Own<R::Element>,
+) -> Outcome {
     let mut outcome = Outcome::default();
     // Blocks that ran dry hold nothing.
     if task.old[own.number].is_empty() {

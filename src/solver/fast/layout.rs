@@ -6,7 +6,7 @@
 use crate::lattice::{C, Q};
 
 /// No block: nothing but gas or solid there.
-pub const NONE: u32 = u32::MAX;
+pub(crate) const NONE: u32 = u32::MAX;
 
 /// Cells of a full block: small enough that its populations and what they are read from stay in the
 /// second-level cache, large enough that the rim does not count.
@@ -15,8 +15,6 @@ const BLOCK_CELLS: usize = 512;
 /// Shape of the blocks and their places in the box.
 #[derive(Clone, Debug)]
 pub struct Layout {
-    /// Cells along x, y, z.
-    pub extents: [usize; 3],
     /// `axis[k]`: box axis of block axis k; k = 0 is the direction of the rows.
     axis: [usize; 3],
     /// Cells of a block along its axes; powers of two.
@@ -57,7 +55,7 @@ impl Layout {
         let velocity = C.map(|c| axis.map(|a| c[a]));
         let table = vec![NONE; counts.iter().product()];
         let shift = block.map(usize::trailing_zeros);
-        let mut layout = Self { extents, axis, block, shift, counts, table, velocity, upstream: Vec::new() };
+        let mut layout = Self { axis, block, shift, counts, table, velocity, upstream: Vec::new() };
         let all = 0..layout.block_cells();
         layout.upstream = all.map(|local| std::array::from_fn(|i| layout.find_upstream(local, i))).collect();
         layout
@@ -65,36 +63,36 @@ impl Layout {
 
     /// Cells per block.
     #[must_use]
-    pub fn block_cells(&self) -> usize {
+    pub(crate) fn block_cells(&self) -> usize {
         1 << (self.shift[0] + self.shift[1] + self.shift[2])
     }
 
     /// Populations per block.
     #[must_use]
-    pub fn block_len(&self) -> usize {
+    pub(crate) fn block_len(&self) -> usize {
         Q * self.block_cells()
     }
 
     /// Number of places for blocks.
     #[must_use]
-    pub fn places(&self) -> usize {
+    pub(crate) fn places(&self) -> usize {
         self.table.len()
     }
 
     /// Block at a place.
     #[must_use]
-    pub fn block_at(&self, place: usize) -> u32 {
+    pub(crate) fn block_at(&self, place: usize) -> u32 {
         self.table[place]
     }
 
     /// Puts a block number, or [`NONE`], at a place.
-    pub fn set_block(&mut self, place: usize, number: u32) {
+    pub(crate) fn set_block(&mut self, place: usize, number: u32) {
         self.table[place] = number;
     }
 
     /// First cell (x, y, z) of the block at a place.
     #[must_use]
-    pub fn origin(&self, place: usize) -> [usize; 3] {
+    pub(crate) fn origin(&self, place: usize) -> [usize; 3] {
         let [n0, n1, _] = self.counts;
         let at = [place % n0, (place / n0) % n1, place / (n0 * n1)];
         self.to_box(std::array::from_fn(|k| at[k] << self.shift[k]))
@@ -112,7 +110,7 @@ impl Layout {
     /// Cell (x, y, z) at a place in the block that starts at `origin`; it may lie outside the box in the last
     /// blocks of an axis.
     #[must_use]
-    pub fn cell(&self, origin: [usize; 3], local: usize) -> [usize; 3] {
+    pub(crate) fn cell(&self, origin: [usize; 3], local: usize) -> [usize; 3] {
         let add = self.to_box(self.coordinates(local));
         std::array::from_fn(|a| origin[a] + add[a])
     }
@@ -120,7 +118,7 @@ impl Layout {
     /// Coordinates inside the block, along the block axes.
     #[inline(always)]
     #[must_use]
-    pub fn coordinates(&self, local: usize) -> [usize; 3] {
+    pub(crate) fn coordinates(&self, local: usize) -> [usize; 3] {
         let [s0, s1, _] = self.shift;
         [local & ((1 << s0) - 1), (local >> s0) & ((1 << s1) - 1), local >> (s0 + s1)]
     }
@@ -128,14 +126,14 @@ impl Layout {
     /// Place in the block of coordinates along the block axes.
     #[inline(always)]
     #[must_use]
-    pub fn local(&self, [a, b, c]: [usize; 3]) -> usize {
+    pub(crate) fn local(&self, [a, b, c]: [usize; 3]) -> usize {
         a | (b << self.shift[0]) | (c << (self.shift[0] + self.shift[1]))
     }
 
     /// Place of the block that holds a cell, and the cell's place in it.
     #[inline]
     #[must_use]
-    pub fn find(&self, at: [usize; 3]) -> (usize, usize) {
+    pub(crate) fn find(&self, at: [usize; 3]) -> (usize, usize) {
         let along = self.axis.map(|a| at[a]);
         let place: [usize; 3] = std::array::from_fn(|k| along[k] >> self.shift[k]);
         let local = std::array::from_fn(|k| along[k] & (self.block[k] - 1));
@@ -145,7 +143,7 @@ impl Layout {
     /// Slot of a cell; `None` where there is no block.
     #[inline]
     #[must_use]
-    pub fn slot(&self, at: [usize; 3]) -> Option<usize> {
+    pub(crate) fn slot(&self, at: [usize; 3]) -> Option<usize> {
         let (place, local) = self.find(at);
         let number = self.table[place];
         (number != NONE).then(|| (number as usize) * self.block_cells() + local)
@@ -154,7 +152,7 @@ impl Layout {
     /// The 27 blocks around a place, itself in the middle, periodic in every axis; entry
     /// (o0 + 1) + 3 (o1 + 1) + 9 (o2 + 1).
     #[must_use]
-    pub fn around(&self, place: usize) -> [usize; 27] {
+    pub(crate) fn around(&self, place: usize) -> [usize; 27] {
         let [n0, n1, n2] = self.counts;
         let at = [place % n0, (place / n0) % n1, place / (n0 * n1)];
         let along = |a: usize, n: usize| {
@@ -170,7 +168,7 @@ impl Layout {
     /// that block.
     #[inline(always)]
     #[must_use]
-    pub fn upstream(&self, local: usize, i: usize) -> (usize, usize) {
+    pub(crate) fn upstream(&self, local: usize, i: usize) -> (usize, usize) {
         let (block, from) = self.upstream[local][i];
         (usize::from(block), usize::from(from))
     }
@@ -195,7 +193,7 @@ impl Layout {
     /// [`Self::around`] and place of the row's first cell.
     #[inline]
     #[must_use]
-    pub fn upstream_row(&self, local: usize, i: usize) -> (usize, usize) {
+    pub(crate) fn upstream_row(&self, local: usize, i: usize) -> (usize, usize) {
         let at = self.coordinates(local);
         let (mut block, mut weight) = (1, 3);
         let mut from = [0; 3];
@@ -213,13 +211,13 @@ impl Layout {
     /// Whether rows run along x.
     #[inline(always)]
     #[must_use]
-    pub fn is_straight(&self) -> bool {
+    pub(crate) fn is_straight(&self) -> bool {
         self.axis[0] == 0
     }
 
     /// Bytes held.
     #[must_use]
-    pub fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         (self.table.len() * size_of::<u32>() + self.upstream.len() * size_of::<[(u8, u16); Q]>()) as u64
     }
 }

@@ -12,14 +12,14 @@ use crate::solver::physics::Physics;
 
 /// Populations of a cell after the last collision.
 #[inline]
-pub fn after<P, E: Element>(task: &Task<P, E>, number: usize, local: usize) -> [f64; Q] {
+pub(crate) fn after<P, E: Element>(task: &Task<P, E>, number: usize, local: usize) -> [f64; Q] {
     let own = task.old[number].get();
     std::array::from_fn(|i| own[index::<E>(local, i)].to_f64())
 }
 
 /// ρ of a cell after the last collision, for [`wall_link`]; 1 where the wall rests and ρ is multiplied by zero.
 #[inline]
-pub fn density_at_wall<P, E: Element>(
+pub(crate) fn density_at_wall<P, E: Element>(
     task: &Task<P, E>,
     number: usize,
     local: usize,
@@ -30,7 +30,7 @@ pub fn density_at_wall<P, E: Element>(
 
 /// What a wall sends back along a link \[B1\] \[B3\], as it is stored.
 #[inline]
-pub fn wall_link<P: Physics, E: Element>(
+pub(crate) fn wall_link<P: Physics, E: Element>(
     task: &Task<P, E>,
     number: usize,
     rim: &[Rim],
@@ -53,7 +53,12 @@ fn stored<E: Element>(x: f64) -> f64 {
 /// What an open face sends back, as it is stored: as gas where fluid leaves, as a wall at rest where it would
 /// come in.
 #[inline]
-pub fn open_link<P: Physics, E: Element>(task: &Task<P, E>, number: usize, rim: &[Rim], link: &Link) -> f64 {
+pub(crate) fn open_link<P: Physics, E: Element>(
+    task: &Task<P, E>,
+    number: usize,
+    rim: &[Rim],
+    link: &Link,
+) -> f64 {
     let out = opposite(usize::from(link.direction));
     let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
     let u = rim.get(usize::from(link.rim)).map_or([0.0; 3], |kept| kept.velocity);

@@ -10,7 +10,7 @@ use crate::setup::{Face, Precision, Setup};
 
 /// Cells per pack: a line of the cache.
 #[must_use]
-pub const fn line(precision: Precision) -> usize {
+pub(crate) const fn line(precision: Precision) -> usize {
     match precision {
         Precision::Double => <f64 as Element>::PER_LINE,
         Precision::Single | Precision::SingleStorage => <f32 as Element>::PER_LINE,
@@ -21,12 +21,12 @@ pub const fn line(precision: Precision) -> usize {
 const LINKS: u64 = 5;
 
 /// Of an interface cell; lists grow by doubling, so that on average a quarter is idle.
-pub const INTERFACE_BYTES: u64 = size_of::<InterfaceCell>() as u64 * 5 / 4;
+pub(crate) const INTERFACE_BYTES: u64 = size_of::<InterfaceCell>() as u64 * 5 / 4;
 
 /// Of a cell with irregular links; `corrected`: with what the wall correction keeps; `surface`: with what comes
 /// back along the links.
 #[must_use]
-pub const fn rim_bytes(corrected: bool, surface: bool) -> u64 {
+pub(crate) const fn rim_bytes(corrected: bool, surface: bool) -> u64 {
     let kept = if corrected { size_of::<Rim>() as u64 } else { 0 };
     // Lists grow by doubling here too.
     let returned = if surface { LINKS * size_of::<f64>() as u64 } else { 0 };
@@ -35,7 +35,7 @@ pub const fn rim_bytes(corrected: bool, surface: bool) -> u64 {
 
 /// Of a block besides what its cells hold; `line`: cells per pack.
 #[must_use]
-pub fn block_bytes(layout: &Layout, line: usize, surface: bool) -> u64 {
+pub(crate) fn block_bytes(layout: &Layout, line: usize, surface: bool) -> u64 {
     let packs = layout.block_cells() / line;
     let lanes = if surface { packs * size_of::<Lanes>() } else { 0 };
     let alignment = 2 * 64;
@@ -48,13 +48,13 @@ pub fn block_bytes(layout: &Layout, line: usize, surface: bool) -> u64 {
 
 /// Of the table of sources; `line`: cells per pack.
 #[must_use]
-pub fn sources_bytes(layout: &Layout, line: usize) -> u64 {
+pub(crate) fn sources_bytes(layout: &Layout, line: usize) -> u64 {
     if layout.is_straight() { (layout.block_cells() / line * size_of::<Sources>()) as u64 } else { 0 }
 }
 
 /// Whether any cell may touch a wall.
 #[must_use]
-pub fn has_walls(setup: &Setup) -> bool {
+pub(crate) fn has_walls(setup: &Setup) -> bool {
     let wall = |face: &Face| matches!(face, Face::NoSlip | Face::Moving(_));
     !setup.solids.is_empty() || setup.faces.iter().flatten().any(wall)
 }

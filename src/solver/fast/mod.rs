@@ -1,24 +1,24 @@
 //! The fast backend: the same equations in packs, in blocks that hold fluid, on several threads.
 
-pub mod around;
-pub mod block;
-pub mod element;
+pub(crate) mod around;
+pub(crate) mod block;
+pub(crate) mod element;
 mod grains;
 pub mod instructions;
-pub mod kernel;
-pub mod layout;
-pub mod links;
-pub mod memory;
-pub mod predict;
-pub mod registers;
+pub(crate) mod kernel;
+pub(crate) mod layout;
+pub(crate) mod links;
+pub(crate) mod memory;
+pub(crate) mod predict;
+pub(crate) mod registers;
 mod report;
-pub mod rim;
+pub(crate) mod rim;
 mod run;
-pub mod sources;
-pub mod stage;
-pub mod stores;
-pub mod surface;
-pub mod task;
+pub(crate) mod sources;
+pub(crate) mod stage;
+pub(crate) mod stores;
+pub(crate) mod surface;
+pub(crate) mod task;
 mod walls;
 #[cfg(target_arch = "x86_64")]
 mod x86;

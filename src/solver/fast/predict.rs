@@ -16,7 +16,7 @@ const INERTIA: u64 = 3 * size_of::<[f64; 3]>() as u64;
 /// Two copies of the populations in blocks that hold fluid at time 0 or that it touches, records of cells at walls and
 /// at the surface, and what a block says of itself.
 #[must_use]
-pub fn bytes(setup: &Setup) -> u64 {
+pub(crate) fn bytes(setup: &Setup) -> u64 {
     let line = own::line(setup.precision);
     let layout = Layout::new(setup.extents, line);
     let held = held_blocks(setup, &layout);

@@ -4,7 +4,7 @@ use super::element::Element;
 use crate::lane::{Lane, Pack, Singles};
 
 /// One way to hold populations in registers.
-pub trait Registers: Copy + Send + Sync + 'static {
+pub(crate) trait Registers: Copy + Send + Sync + 'static {
     /// What populations are stored as.
     type Element: Element;
     /// What they are computed with.
@@ -42,6 +42,7 @@ pub trait Registers: Copy + Send + Sync + 'static {
 }
 
 /// `N` numbers in f64, stored in f64: the reference precision.
+#[allow(dead_code, reason = "it names a choice among types; there is no value of it")]
 #[derive(Clone, Copy, Debug)]
 pub struct Double<const N: usize>;
 
@@ -83,6 +84,7 @@ impl<const N: usize> Registers for Double<N> {
 }
 
 /// `N` numbers in f32, stored in f32.
+#[allow(dead_code, reason = "it names a choice among types; there is no value of it")]
 #[derive(Clone, Copy, Debug)]
 pub struct Single<const N: usize>;
 
@@ -136,6 +138,7 @@ impl<const N: usize> Registers for Single<N> {
 }
 
 /// `N` numbers in f64, stored in f32.
+#[allow(dead_code, reason = "it names a choice among types; there is no value of it")]
 #[derive(Clone, Copy, Debug)]
 pub struct Stored<const N: usize>;
 

@@ -10,7 +10,7 @@ use crate::solver::physics::Physics;
 
 /// What is kept of a cell at a wall or open face.
 #[derive(Clone, Debug)]
-pub struct Rim {
+pub(crate) struct Rim {
     /// Populations before the last collision.
     pub f: [f64; Q],
     /// What the wall subtracts from the populations that leave \[B3\].
@@ -28,7 +28,7 @@ impl Default for Rim {
 }
 
 /// What the corrections of a block depend on.
-pub struct WallTask<'a, P> {
+pub(crate) struct WallTask<'a, P> {
     /// Equations.
     pub physics: &'a P,
     /// Which block is where.
@@ -42,7 +42,7 @@ pub struct WallTask<'a, P> {
 }
 
 /// What a correction takes from around its cell.
-pub struct Given {
+pub(crate) struct Given {
     /// Body force.
     pub force: [f64; 3],
     /// F − ∇p.
@@ -50,7 +50,7 @@ pub struct Given {
 }
 
 /// What the cells of a group have in common.
-pub struct Alike<'a> {
+pub(crate) struct Alike<'a> {
     /// Cells of the group.
     pub count: usize,
     /// Directions that lead into walls, one bit each.
@@ -63,7 +63,7 @@ pub struct Alike<'a> {
 
 /// Cells side by side: one number per lane.
 #[repr(align(64))]
-pub struct Columns {
+pub(crate) struct Columns {
     f: [[f64; MOST]; Q],
     force: [[f64; MOST]; 3],
     residual: [[f64; MOST]; 3],
@@ -79,7 +79,7 @@ impl Columns {
     }
 
     /// A cell into a lane.
-    pub fn put(&mut self, lane: usize, kept: &Rim, given: &Given) {
+    pub(crate) fn put(&mut self, lane: usize, kept: &Rim, given: &Given) {
         for (column, f) in self.f.iter_mut().zip(&kept.f) {
             column[lane] = *f;
         }
@@ -91,7 +91,7 @@ impl Columns {
     }
 
     /// The correction of a lane.
-    pub fn take(&self, lane: usize, kept: &mut Rim) {
+    pub(crate) fn take(&self, lane: usize, kept: &mut Rim) {
         for (value, column) in kept.correction.iter_mut().zip(&self.f) {
             *value = column[lane];
         }
@@ -133,7 +133,7 @@ impl Default for Columns {
 
 /// Corrections of cells side by side, for one instruction set; see [`super::instructions::walls`].
 #[inline(always)]
-pub fn correct_group<R: Registers<Element = f64>, P: Physics>(
+pub(crate) fn correct_group<R: Registers<Element = f64>, P: Physics>(
     task: &WallTask<P>,
     columns: &mut Columns,
     alike: &Alike,

@@ -64,7 +64,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     ///
     /// # Errors
     /// The setup is inconsistent, or asks for what this backend does not have.
-    pub fn start(
+    pub(crate) fn start(
         setup: &Setup,
         physics: P,
         chosen: Chosen,

@@ -13,7 +13,7 @@ type Line = (u32, u32);
 
 /// Sources of one pack.
 #[derive(Clone, Debug)]
-pub struct Sources {
+pub(crate) struct Sources {
     /// By direction: the line before the shift along the row.
     from: [Line; Q],
     /// By direction: the line before or behind it in the row, of which the shift brings in one number; the line
@@ -31,7 +31,7 @@ pub struct Sources {
 impl Sources {
     /// Of every pack of a block; empty where rows do not run along x (such boxes are small).
     #[must_use]
-    pub fn all<E: Element>(layout: &Layout) -> Vec<Self> {
+    pub(crate) fn all<E: Element>(layout: &Layout) -> Vec<Self> {
         if !layout.is_straight() {
             return Vec::new();
         }
@@ -69,7 +69,7 @@ impl Sources {
     /// its few places for lines on their way until memory has answered, and the loads of the pack in
     /// work wait behind it.
     #[inline(always)]
-    pub fn prefetch_far<E: Element>(&self, around: &Around<E>) {
+    pub(crate) fn prefetch_far<E: Element>(&self, around: &Around<E>) {
         for &(entry, base) in &self.far {
             stores::prefetch_far(around.entry(entry as usize), base as usize);
         }
@@ -87,7 +87,11 @@ const NEAR: usize = 2;
 /// Asks on the way for the lines that the pack after next will need: those of most packs follow each other
 /// in memory, and for the others the request does no harm.
 #[inline(always)]
-pub fn gather<R: Registers>(around: &Around<R::Element>, sources: &Sources, part: usize) -> [R::Pack; Q] {
+pub(crate) fn gather<R: Registers>(
+    around: &Around<R::Element>,
+    sources: &Sources,
+    part: usize,
+) -> [R::Pack; Q] {
     let line = R::Element::PER_LINE;
     directions(
         #[inline(always)]
@@ -125,7 +129,7 @@ pub fn gather<R: Registers>(around: &Around<R::Element>, sources: &Sources, part
 /// Numbers that belong to cells, from where population `i` of part of an ordinary pack comes from; `fields`: one
 /// number per cell for each of the 27 blocks ([`Layout::around`]).
 #[inline(always)]
-pub fn gather_cells<R: Registers>(
+pub(crate) fn gather_cells<R: Registers>(
     fields: &[&[f64]; 27],
     sources: &Sources,
     part: usize,

@@ -17,7 +17,7 @@ use crate::solver::physics::Physics;
 
 /// What the cells of a pack are.
 #[derive(Clone, Copy, Debug)]
-pub struct Class {
+pub(crate) struct Class {
     /// Bit per lane: fluid.
     pub fluid: u16,
     /// Bit per lane: interface.
@@ -47,7 +47,7 @@ impl Class {
 /// Aligned so that the function it lives in aligns its stack: registers that are put aside there would
 /// otherwise lie across two lines, each.
 #[repr(align(64))]
-pub struct Stage<E> {
+pub(crate) struct Stage<E> {
     /// Populations before collision, then after.
     populations: [[E; MOST]; Q],
     /// Body force; filled where the pack has interface cells.
@@ -73,7 +73,7 @@ impl<E: Element> Stage<E> {
 
     /// Gathers a pack that starts at `local`; `sources`: those of the pack, where they are tabulated.
     #[inline(always)]
-    pub fn fill<R: Registers<Element = E>, P: Physics>(
+    pub(crate) fn fill<R: Registers<Element = E>, P: Physics>(
         &mut self,
         task: &Task<P, E>,
         own: &Own<E>,
@@ -104,7 +104,7 @@ impl<E: Element> Stage<E> {
 
     /// Puts right what the grid of blocks does not know: walls, irregular links, interface cells, idle lanes.
     #[inline(never)]
-    pub fn mend<P: Physics>(
+    pub(crate) fn mend<P: Physics>(
         &mut self,
         task: &Task<P, E>,
         block: &Block,
@@ -214,7 +214,7 @@ impl<E: Element> Stage<E> {
 
     /// Body force of one part of the pack.
     #[inline(always)]
-    pub fn load_force<R: Registers<Element = E>>(&self, part: usize) -> [R::Pack; 3] {
+    pub(crate) fn load_force<R: Registers<Element = E>>(&self, part: usize) -> [R::Pack; 3] {
         three(
             #[inline(always)]
             |a| R::load_wide(&self.force[a][part..]),
@@ -223,7 +223,7 @@ impl<E: Element> Stage<E> {
 
     /// Puts the populations of one part of the pack here.
     #[inline(always)]
-    pub fn store<R: Registers<Element = E>>(&mut self, populations: &[R::Pack; Q], part: usize) {
+    pub(crate) fn store<R: Registers<Element = E>>(&mut self, populations: &[R::Pack; Q], part: usize) {
         for i in 0..Q {
             R::store(populations[i], &mut self.populations[i][part..]);
         }
@@ -245,7 +245,12 @@ impl<E: Element> Stage<E> {
 
     /// Keeps u, ω⁺ and ρ of one part of the pack.
     #[inline(always)]
-    pub fn keep<R: Registers<Element = E>>(&mut self, m: &Moments<R::Pack>, omega: R::Pack, part: usize) {
+    pub(crate) fn keep<R: Registers<Element = E>>(
+        &mut self,
+        m: &Moments<R::Pack>,
+        omega: R::Pack,
+        part: usize,
+    ) {
         for a in 0..3 {
             R::store_wide(m.u[a], &mut self.velocity[a][part..]);
         }

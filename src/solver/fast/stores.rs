@@ -9,7 +9,7 @@ use super::element::{Element, LINE_BYTES};
 /// Copies one line to memory without fetching it; an ordinary copy where the processor has no such store or
 /// the place is not the start of a line.
 #[inline(always)]
-pub fn line_past_cache<E: Element>(to: &mut [E], from: &[E]) {
+pub(crate) fn line_past_cache<E: Element>(to: &mut [E], from: &[E]) {
     debug_assert!(to.len() == E::PER_LINE && from.len() == E::PER_LINE);
     #[cfg(target_arch = "x86_64")]
     if to.as_ptr().addr().is_multiple_of(LINE_BYTES)
@@ -29,7 +29,7 @@ pub fn line_past_cache<E: Element>(to: &mut [E], from: &[E]) {
 }
 
 /// Makes earlier [`line_past_cache`] stores of this thread visible before anything later.
-pub fn fence() {
+pub(crate) fn fence() {
     #[cfg(target_arch = "x86_64")]
     // SAFETY: SSE belongs to every x86_64.
     unsafe {
@@ -40,7 +40,7 @@ pub fn fence() {
 /// Asks for the line of a number from memory, into the second-level cache; nothing happens where there is no
 /// such instruction.
 #[inline(always)]
-pub fn prefetch_far<E: Element>(from: &[E], at: usize) {
+pub(crate) fn prefetch_far<E: Element>(from: &[E], at: usize) {
     #[cfg(target_arch = "x86_64")]
     // SAFETY: a prefetch reads nothing and may name any address.
     unsafe {
@@ -53,7 +53,7 @@ pub fn prefetch_far<E: Element>(from: &[E], at: usize) {
 
 /// Asks for the line of a number from the second-level cache, into the first; as [`prefetch_far`].
 #[inline(always)]
-pub fn prefetch_near<E: Element>(from: &[E], at: usize) {
+pub(crate) fn prefetch_near<E: Element>(from: &[E], at: usize) {
     #[cfg(target_arch = "x86_64")]
     // SAFETY: as above.
     unsafe {

@@ -11,7 +11,7 @@ use crate::setup::Setup;
 use crate::solver::run::Stopped;
 
 /// What all blocks of a pass share; everything here is only read.
-pub struct Task<'a, P, E> {
+pub(crate) struct Task<'a, P, E> {
     /// What is run.
     pub setup: &'a Setup,
     /// Equations.
@@ -41,19 +41,19 @@ pub struct Task<'a, P, E> {
 impl<'a, P, E: Element> Task<'a, P, E> {
     /// Around a block.
     #[inline(always)]
-    pub fn around(&self, number: usize) -> Around<'a, E> {
+    pub(crate) fn around(&self, number: usize) -> Around<'a, E> {
         Around::new(self.old, self.layout, self.blocks, number)
     }
 
     /// Around the block after this one, if there is one that holds anything.
     #[inline(always)]
-    pub fn around_next(&self, number: usize) -> Option<Around<'a, E>> {
+    pub(crate) fn around_next(&self, number: usize) -> Option<Around<'a, E>> {
         Around::next(self.old, self.layout, self.blocks, number)
     }
 }
 
 /// What a block owns in a pass.
-pub struct Own<'a, E> {
+pub(crate) struct Own<'a, E> {
     /// Number of the block.
     pub number: usize,
     /// Populations after this collision.
@@ -72,7 +72,7 @@ pub struct Own<'a, E> {
 
 /// What a pass over a block found.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Outcome {
+pub(crate) struct Outcome {
     /// First cell, by number in the box, that fails the guard.
     pub failed: Option<(usize, Stopped)>,
     /// Σ(ρ − 1) over liquid cells; only with a free surface.

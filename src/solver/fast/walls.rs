@@ -15,7 +15,7 @@ const GROUP: usize = 8;
 /// Corrections of the rim cells of a block: neighbours along the rim with the same walls side by side.
 /// `force(local)`: body force of a fluid cell, `None` if the cell holds no fluid; `is_fluid(place)`: whether a
 /// neighbour does.
-pub fn correct<P: Physics>(
+pub(crate) fn correct<P: Physics>(
     chosen: Chosen,
     task: &WallTask<P>,
     block: &Block,

@@ -8,18 +8,18 @@ const NUMBER: u64 = size_of::<f64>() as u64;
 const VECTOR: u64 = size_of::<[f64; 3]>() as u64;
 
 /// Of a cell: two copies of the populations.
-pub const POPULATIONS: u64 = 2 * Q as u64 * NUMBER;
+pub(crate) const POPULATIONS: u64 = 2 * Q as u64 * NUMBER;
 /// Of a cell: what it is for streaming.
-pub const NEIGHBOURS: u64 = size_of::<u32>() as u64;
+pub(crate) const NEIGHBOURS: u64 = size_of::<u32>() as u64;
 /// Of one coordinate of an axis: upstream offsets.
-pub const AXIS: u64 = 3 * size_of::<usize>() as u64;
+pub(crate) const AXIS: u64 = 3 * size_of::<usize>() as u64;
 /// Of a cell with a link that is not regular.
-pub const RECORD: u64 = size_of::<BoundaryCell>() as u64;
+pub(crate) const RECORD: u64 = size_of::<BoundaryCell>() as u64;
 /// Of such a cell: what the wall correction keeps.
-pub const CORRECTION: u64 = Q as u64 * NUMBER;
+pub(crate) const CORRECTION: u64 = Q as u64 * NUMBER;
 /// Of a cell: ω⁺ of the previous step.
-pub const LAG: u64 = NUMBER;
+pub(crate) const LAG: u64 = NUMBER;
 /// Of a cell below a free surface or among grains: kind, touched kinds, mass, fill now and at time 0, and velocity.
-pub const SURFACE: u64 = 1 + 1 + NUMBER + NUMBER + NUMBER + VECTOR;
+pub(crate) const SURFACE: u64 = 1 + 1 + NUMBER + NUMBER + NUMBER + VECTOR;
 /// Of a cell below a free surface: smoothed acceleration and the velocity it is made from.
-pub const INERTIA: u64 = VECTOR + VECTOR;
+pub(crate) const INERTIA: u64 = VECTOR + VECTOR;

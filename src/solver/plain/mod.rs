@@ -6,7 +6,7 @@
 //! every flow needs, `surface` what cells with a kind need besides.
 
 mod grains;
-pub mod memory;
+pub(crate) mod memory;
 mod passes;
 mod report;
 mod run;

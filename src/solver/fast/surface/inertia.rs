@@ -7,7 +7,7 @@ type Vectors = Vec<f64>;
 
 /// Velocities of two collisions and the smoothed acceleration, by block.
 #[derive(Clone, Debug, Default)]
-pub struct Inertia {
+pub(crate) struct Inertia {
     /// u of the last collision, and of cells that have become fluid since.
     pub velocity: Vec<Vectors>,
     /// u of the collision before.
@@ -33,40 +33,40 @@ pub(super) fn set(vectors: &mut [f64], local: usize, to: &[f64; 3]) {
 
 impl Inertia {
     /// Makes room for a block.
-    pub fn add(&mut self, number: usize, cells: usize) {
+    pub(crate) fn add(&mut self, number: usize, cells: usize) {
         for list in [&mut self.velocity, &mut self.before, &mut self.acceleration] {
             put(list, number, vec![0.0; 3 * cells]);
         }
     }
 
     /// Gives a block up.
-    pub fn drop_block(&mut self, number: usize) {
+    pub(crate) fn drop_block(&mut self, number: usize) {
         for list in [&mut self.velocity, &mut self.before, &mut self.acceleration] {
             list[number] = Vec::new();
         }
     }
 
     /// A cell that has become fluid.
-    pub fn wet(&mut self, number: usize, local: usize, velocity: &[f64; 3]) {
+    pub(crate) fn wet(&mut self, number: usize, local: usize, velocity: &[f64; 3]) {
         set(&mut self.velocity[number], local, velocity);
         set(&mut self.acceleration[number], local, &[0.0; 3]);
     }
 
     /// A cell that a grain has given free: nothing is known of its past.
-    pub fn uncover(&mut self, number: usize, local: usize, velocity: &[f64; 3]) {
+    pub(crate) fn uncover(&mut self, number: usize, local: usize, velocity: &[f64; 3]) {
         self.wet(number, local, velocity);
         set(&mut self.before[number], local, velocity);
     }
 
     /// Acceleration of a cell.
     #[must_use]
-    pub fn acceleration_of(&self, number: usize, local: usize) -> [f64; 3] {
+    pub(crate) fn acceleration_of(&self, number: usize, local: usize) -> [f64; 3] {
         get(&self.acceleration[number], local)
     }
 
     /// Bytes held.
     #[must_use]
-    pub fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         let lists = [&self.velocity, &self.before, &self.acceleration];
         lists.iter().flat_map(|list| list.iter()).map(|v| size_of_val(v.as_slice()) as u64).sum()
     }

@@ -8,11 +8,11 @@
 mod accelerate;
 mod convert;
 mod exchange;
-pub mod inertia;
-pub mod packed;
+pub(crate) mod inertia;
+pub(crate) mod packed;
 mod pass;
-pub mod record;
+pub(crate) mod record;
 mod report;
 mod start;
-pub mod state;
-pub mod streaming;
+pub(crate) mod state;
+pub(crate) mod streaming;

@@ -17,7 +17,7 @@ use crate::solver::fast::sources::{Sources, gather, gather_cells};
 use crate::solver::physics::Physics;
 
 /// What the exchange reads around a block.
-pub struct Near<'a, E> {
+pub(crate) struct Near<'a, E> {
     /// Populations after the last collision.
     pub populations: Around<'a, E>,
     /// φ of interface cells, and what stands for the others ([`share_with`]).
@@ -139,7 +139,7 @@ impl Columns {
 /// Streams all interface cells of a block, with registers that compute in f64: those with irregular links one by
 /// one, the others side by side.
 #[inline(always)]
-pub fn stream_block<R: Registers, P: Physics>(
+pub(crate) fn stream_block<R: Registers, P: Physics>(
     streaming: &Streaming<P, R::Element>,
     near: &Near<R::Element>,
     list: &mut [InterfaceCell],

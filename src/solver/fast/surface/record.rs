@@ -6,7 +6,7 @@ use crate::setup::SurfaceForce;
 
 /// A cell whose populations are kept: interface, or liquid since the last step.
 #[derive(Clone, Debug)]
-pub struct InterfaceCell {
+pub(crate) struct InterfaceCell {
     /// Place in the block.
     pub local: u16,
     /// What it touched while streaming, bits of [`crate::free_surface::conversion::touch`].
@@ -25,7 +25,7 @@ pub struct InterfaceCell {
 
 /// Lanes of a pack, a bit each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Lanes {
+pub(crate) struct Lanes {
     /// Liquid or interface.
     pub fluid: u16,
     /// Interface.
@@ -36,7 +36,7 @@ pub struct Lanes {
 
 /// What the passes read of the surface.
 #[derive(Clone, Copy)]
-pub struct SurfaceView<'a> {
+pub(crate) struct SurfaceView<'a> {
     /// By block and pack.
     pub lanes: &'a [Vec<Lanes>],
     /// φ of interface cells, by block and cell.
@@ -51,7 +51,7 @@ impl SurfaceView<'_> {
     /// Body force of an interface cell \[F3\].
     #[inline]
     #[must_use]
-    pub fn force_of(&self, number: usize, cell: &InterfaceCell, force: &[f64; 3]) -> [f64; 3] {
+    pub(crate) fn force_of(&self, number: usize, cell: &InterfaceCell, force: &[f64; 3]) -> [f64; 3] {
         let fill = self.fill[number][usize::from(cell.local)];
         interface_force(self.rule, force, fill, &cell.acceleration)
     }

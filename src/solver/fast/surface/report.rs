@@ -14,7 +14,7 @@ use crate::solver::run::{Fields, Ledger};
 
 impl Surface {
     /// Fill and kind of every cell of the box.
-    pub fn start_fields<P: Physics, E: Element>(&self, run: &FastRun<P, E>, fields: &mut Fields) {
+    pub(crate) fn start_fields<P: Physics, E: Element>(&self, run: &FastRun<P, E>, fields: &mut Fields) {
         let cells = run.setup.cells();
         fields.fill = vec![0.0; cells];
         let kind = |cell: usize| if run.setup.is_solid(cell) { Kind::Solid } else { Kind::Gas } as u8;
@@ -31,7 +31,7 @@ impl Surface {
 
     /// φ of a fluid cell of density `rho`, as it is.
     #[must_use]
-    pub fn fill_of(&self, number: usize, local: usize, rho: f64) -> f64 {
+    pub(crate) fn fill_of(&self, number: usize, local: usize, rho: f64) -> f64 {
         match self.kinds[number][local] {
             Kind::Liquid => 1.0,
             Kind::Interface | Kind::Gas | Kind::Solid => self.mass(number, local) / rho,
@@ -47,7 +47,7 @@ impl Surface {
 
     /// Mass of a fluid cell, as an excess over 1 in liquid, and whole.
     #[must_use]
-    pub fn mass_of(&self, number: usize, local: usize, m: &Moments<f64>) -> (f64, f64) {
+    pub(crate) fn mass_of(&self, number: usize, local: usize, m: &Moments<f64>) -> (f64, f64) {
         match self.kinds[number][local] {
             Kind::Liquid => (m.d_rho, m.rho),
             Kind::Interface | Kind::Gas | Kind::Solid => (self.mass(number, local), self.mass(number, local)),
@@ -55,7 +55,7 @@ impl Surface {
     }
 
     /// Number, kind and mass of a cell.
-    pub fn hash_cell(&self, hasher: &mut Hasher, cell: usize, number: usize, local: usize) {
+    pub(crate) fn hash_cell(&self, hasher: &mut Hasher, cell: usize, number: usize, local: usize) {
         hasher.number(cell as f64);
         hasher.number(f64::from(self.kinds[number][local] as u8));
         hasher.number(self.mass(number, local));
@@ -63,13 +63,13 @@ impl Surface {
 
     /// Cells with fluid.
     #[must_use]
-    pub fn fluid_cells(&self) -> u64 {
+    pub(crate) fn fluid_cells(&self) -> u64 {
         self.counts[0] + self.counts[1]
     }
 
     /// Bytes held.
     #[must_use]
-    pub fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         let kinds: usize = self.kinds.iter().map(Vec::len).sum();
         let fill: usize = self.fill.iter().map(|fill| size_of_val(fill.as_slice())).sum();
         let lanes: usize = self.lanes.iter().map(|lanes| size_of_val(lanes.as_slice())).sum();

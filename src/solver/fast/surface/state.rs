@@ -69,13 +69,13 @@ impl Surface {
 
     /// What the passes read.
     #[must_use]
-    pub fn view(&self) -> SurfaceView<'_> {
+    pub(crate) fn view(&self) -> SurfaceView<'_> {
         SurfaceView { lanes: &self.lanes, fill: &self.fill, returned: &self.returned, rule: self.rules.force }
     }
 
     /// Body force of a cell \[F3\]; `None` where it holds no fluid.
     #[must_use]
-    pub fn force_at(&self, number: usize, local: usize, force: &[f64; 3]) -> Option<[f64; 3]> {
+    pub(crate) fn force_at(&self, number: usize, local: usize, force: &[f64; 3]) -> Option<[f64; 3]> {
         match self.kinds[number][local] {
             Kind::Interface => {
                 // Without a record at the very start, where nothing has been accelerated yet.
@@ -90,7 +90,7 @@ impl Surface {
 
     /// Record of a cell.
     #[must_use]
-    pub fn record(&self, number: usize, local: usize) -> Option<&InterfaceCell> {
+    pub(crate) fn record(&self, number: usize, local: usize) -> Option<&InterfaceCell> {
         let list = &self.interface[number];
         list.binary_search_by_key(&local, |cell| usize::from(cell.local)).ok().map(|k| &list[k])
     }

@@ -18,7 +18,7 @@ use crate::solver::fast::task::Task;
 use crate::solver::physics::Physics;
 
 /// A block while its interface cells stream.
-pub struct Streaming<'a, P, E> {
+pub(crate) struct Streaming<'a, P, E> {
     pub(super) task: &'a Task<'a, P, E>,
     pub(super) surface: &'a Surface,
     pub(super) rim: &'a [Rim],
