@@ -26,7 +26,7 @@
 //!
 //! | floor | modules |
 //! | --- | --- |
-//! | what people call | [`bench`], [`run`], [`plan`], [`scene`], [`output`] |
+//! | what people call | [`mod@bench`], [`run`], [`plan`], [`scene`], [`output`] |
 //! | solvers | [`solver`] |
 //! | parts of a step | [`coupling`], [`free_surface`], [`boundary`] |
 //! | the contract | [`setup`] |

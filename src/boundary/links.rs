@@ -69,7 +69,7 @@ pub struct Links {
 }
 
 impl Links {
-    /// Builds the table; `setup` must have passed [`crate::solver::check::check`].
+    /// Builds the table; `setup` must have passed `crate::solver::check::check`.
     #[must_use]
     pub fn new(setup: &Setup) -> Self {
         let stride = [1, setup.extents[0], setup.extents[0] * setup.extents[1]];

@@ -162,7 +162,7 @@ pub(crate) fn pressure_slope(low: Option<f64>, here: f64, high: Option<f64>) -> 
 /// `residual`: f = F − ∇p. `q`: deviator of the non-equilibrium tensor. `excess_wanted`: τ_w − ½.
 /// `odd_omega`: ω⁻.
 /// # Returns
-/// Additions to the six third moments, order of [`crate::lattice::moments::THIRD`].
+/// Additions to the six third moments, order of `crate::lattice::moments::THIRD`.
 /// # Source
 /// docs/method.md \[K6\].
 /// # Verified by

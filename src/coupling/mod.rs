@@ -2,7 +2,7 @@
 //!
 //! The fluid is computed outside the grains only. A cell whose centre lies inside a grain is *covered*: it is solid
 //! until the grain has moved on. Everything here is written once, for any backend that gives access to its cells
-//! ([`Host`]): populations that a grain's surface sends back are put into the covered cell they come from, so that
+//! (`Host`): populations that a grain's surface sends back are put into the covered cell they come from, so that
 //! streaming finds them where it would find those of a fluid neighbour. The loops over fluid cells know nothing of
 //! grains.
 //!
@@ -16,7 +16,7 @@
 //! | C6 | velocity of the surface, implicit in the link friction | `predict.rs` |
 //!
 //! # A fluid step with grains
-//! collide → [`Immersed::exchange`] (links, forces) → stream, free surface → [`Immersed::advance`] (grains move by the
+//! collide → `Immersed::exchange` (links, forces) → stream, free surface → `Immersed::advance` (grains move by the
 //! force of this step, cells are covered and uncovered).
 
 mod books;

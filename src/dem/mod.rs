@@ -1,7 +1,7 @@
 //! Grains: spheres and rigid clumps of spheres with frictional visco-elastic contact.
 //!
 //! Everything is in SI units and in one frame. A [`Dem`] is built from a checked [`Setup`], advanced with
-//! [`Dem::step`], and coupled through [`Dem::external_mut`] (force and torque per body, kept until changed).
+//! [`Dem::step`], and coupled through `Dem::external_mut` (force and torque per body, kept until changed).
 //!
 //! | tag | equation | file | tests |
 //! | --- | --- | --- | --- |

@@ -5,7 +5,7 @@
 //! their topology can change (poles of spheres, extremes of circles common to two spheres, points common to
 //! three), with Gauss–Legendre nodes after the substitution z = a + (b − a) t³(10 − 15 t + 6 t²), which turns
 //! the half-integer powers at the ends of a piece into smooth functions. The error therefore falls faster than
-//! any power of the number of nodes; [`NODES`] leaves round-off only.
+//! any power of the number of nodes; `NODES` leaves round-off only.
 
 use super::V3;
 use super::sphere::Sphere;

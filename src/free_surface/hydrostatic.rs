@@ -44,7 +44,7 @@ fn for_each_column(extents: [usize; 3], axis: usize, downward: bool, mut work: i
 /// # Returns
 /// φ of every cell; columns are those along the largest component of the force.
 /// # Source
-/// [`density_excess`] integrated over the depth.
+/// `density_excess` integrated over the depth.
 /// # Verified by
 /// Test `exact_mass_of_settled_columns`; exhibit `thesis-time-step`.
 #[must_use]

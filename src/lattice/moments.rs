@@ -82,7 +82,7 @@ pub fn second<L: Lane>(h: &[L; Q]) -> [L; 6] {
     ]
 }
 
-/// Third raw moments Σ c_a² c_b h_i of the six kinds D3Q19 has, in the order of [`THIRD`].
+/// Third raw moments Σ c_a² c_b h_i of the six kinds D3Q19 has, in the order of `THIRD`.
 ///
 /// # Exactness
 /// Mirror-exact.

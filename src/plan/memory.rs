@@ -85,7 +85,7 @@ const PLANNING: u64 = 16;
 /// Bytes a run holds at most, on the plain backend.
 ///
 /// # Arguments
-/// `setup`: must have passed [`crate::solver::check::check`].
+/// `setup`: must have passed `crate::solver::check::check`.
 #[must_use]
 pub fn predicted_bytes(setup: &Setup) -> Prediction {
     predict(setup, Layout::EveryCell)

@@ -55,7 +55,7 @@ pub trait Rheology: Clone + Send + Sync + 'static {
 }
 
 /// A constitutive law: parameters only, in lattice units (reference density 1, so dynamic = kinematic values)
-/// wherever a run computes with them. [`Law::prepare`] makes of it what runs compute with, [`Law::curve`] what
+/// wherever a run computes with them. [`Law::prepare`] makes of it what runs compute with, `Law::curve` what
 /// estimates ask.
 ///
 /// A new law is a file of this folder and an entry in the two enums and the matches of this file; none of these has

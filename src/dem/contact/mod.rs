@@ -114,7 +114,7 @@ impl Rolling {
     }
 }
 
-/// Rates (W) and amounts (J) that contacts lose or exchange; see [`super::energy`].
+/// Rates (W) and amounts (J) that contacts lose or exchange; see `super::energy`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Losses {
     /// Rate lost in the normal direction, W.

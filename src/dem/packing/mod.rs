@@ -1,7 +1,7 @@
 //! Grains to start from: lattices and random packings in boxes, spheres and cylinders.
 //!
 //! Generators return grains ordered along a space-filling curve, so that neighbours in space are neighbours in
-//! memory; see [`order_by_place`].
+//! memory; see `order_by_place`.
 
 pub mod lattice;
 pub(crate) mod random;

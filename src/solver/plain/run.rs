@@ -41,7 +41,7 @@ impl<P: Physics> PlainRun<P> {
     /// the pressure that balances its weight ([`crate::free_surface::hydrostatic`]).
     ///
     /// # Errors
-    /// The setup is inconsistent ([`crate::solver::check::check`]), or has several fluids below a free surface.
+    /// The setup is inconsistent (`crate::solver::check::check`), or has several fluids below a free surface.
     pub fn start(setup: &Setup, physics: P) -> Result<Self, StartError> {
         Self::start_with(setup, physics, Design)
     }
