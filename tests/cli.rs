@@ -1,21 +1,14 @@
 //! The command line: every scene can be planned, runs write what they should, exit codes.
 
+mod program;
+
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use lahar::output::csv::Series;
 use lahar::plan::Plan;
 use lahar::run::{Ended, Summary};
 use lahar::scene;
-
-fn lahar(arguments: &[&str]) -> Output {
-    let command = Command::new(env!("CARGO_BIN_EXE_lahar")).args(arguments).current_dir(root()).output();
-    command.expect("the command starts")
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
+use program::{lahar, root};
 
 /// An empty folder of this test's own.
 fn folder(name: &str) -> PathBuf {

@@ -1,8 +1,9 @@
 //! Grains in a fluid, from the scene to the files: each scene of the package has a plan, gravity goes where it should,
 //! runs write what they say, and results do not depend on threads.
 
+mod program;
+
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use lahar::output::csv::Series;
 use lahar::plan::Plan;
@@ -11,21 +12,10 @@ use lahar::run::summary::FluidPart;
 use lahar::run::{Ended, Summary};
 use lahar::scene::{self, Scene};
 use lahar::setup::BodyForce;
+use program::{lahar, root};
 
-fn lahar(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_lahar")).args(arguments).current_dir(root()).output().expect("it starts")
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// An empty folder of this test's own.
 fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("coupled").join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).expect("a folder");
-    folder
+    program::folder("coupled", name)
 }
 
 fn path_of(name: &str) -> PathBuf {

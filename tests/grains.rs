@@ -1,8 +1,9 @@
 //! Scenes without fluid: each one of the package has a plan and runs, results do not depend on threads, what is
 //! written can be read back, and grains that leave are booked.
 
+mod program;
+
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use lahar::dem::Dem;
 use lahar::output::csv::Series;
@@ -12,25 +13,14 @@ use lahar::run::summary::DryPart;
 use lahar::run::{Ended, Summary, fingerprint};
 use lahar::scene;
 use lahar::scene::dry::DryScene;
+use program::{lahar, root};
 
 /// The rate of loss in a damped contact starts like δ^{1/4}, which the books' trapezoid resolves to about
 /// (1/steps per contact)^{5/4}: 7.5e-3 of what is lost at 50 steps.
 const BOOKS: f64 = 7.5e-3;
 
-fn lahar(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_lahar")).args(arguments).current_dir(root()).output().expect("it starts")
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// An empty folder of this test's own.
 fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("grains").join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).expect("a folder");
-    folder
+    program::folder("grains", name)
 }
 
 fn dry(path: &Path) -> DryScene {
