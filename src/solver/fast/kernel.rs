@@ -43,8 +43,7 @@ pub(crate) fn pass<R: Registers, P: Physics>(
     let around = task.around(own.number);
     let ahead = Ahead::new(task, own.number, &around);
     let straight = !task.sources.is_empty() && !task.fresh;
-    let mut stage = Stage::new();
-    let mut liquid = [0.0; MOST];
+    let (mut stage, mut liquid) = (Stage::new(), [0.0; MOST]);
     // Where it is known when compiling that nothing is solved, what follows from ω⁺ is computed once per block.
     let solved = P::VARIES && task.physics.constant_omega().is_none();
     let rate = R::Pack::splat(task.physics.constant_omega().unwrap_or(0.0));
@@ -87,9 +86,7 @@ pub(crate) fn pass<R: Registers, P: Physics>(
             stage.write(task.past_cache, &mut own.new.get_mut()[pack * Q * line..][..Q * line]);
         }
     }
-    for sum in liquid {
-        outcome.liquid_excess += sum;
-    }
+    outcome.liquid_excess = liquid.into_iter().fold(outcome.liquid_excess, |sum, x| sum + x);
     outcome
 }
 
