@@ -6,13 +6,16 @@ mod common;
 
 use common::{LAWS, Numbers, OPERATORS, TREATMENTS};
 use lahar::boundary::bounce_back::bounce_back;
-use lahar::boundary::wall_slip::{curvature_velocity, link_correction, stress_source, tangential};
+use lahar::boundary::flat_wall::FlatWall;
+use lahar::boundary::wall_law::{self, WallStress};
+use lahar::boundary::wall_slip::{link_correction, newtonian_slip, stress_source};
 use lahar::collision::Collision;
 use lahar::lane::{Lane, Pack, Singles};
 use lahar::lattice::Q;
 use lahar::lattice::equilibrium::equilibrium;
 use lahar::lattice::moments::{add_third, deviator, magnitude, moments, populations};
-use lahar::rheology::{Law, Prepared, Rheology, relaxation};
+use lahar::rheology::relaxation::{self, SlowBranch};
+use lahar::rheology::{Law, Prepared, Rheology};
 
 /// A kernel from some numbers to some numbers, over any lane.
 trait Kernel {
@@ -172,13 +175,7 @@ impl Kernel for OmegaKernel {
         let (q, rho, previous) = (x[0], x[1], x[2]);
         let gamma_dot = self.0.shear_rate(rho, q);
         let omega = relaxation::omega(&self.0, self.1, rho, q, previous);
-        vec![
-            gamma_dot,
-            self.0.stress(gamma_dot),
-            self.0.tangent_viscosity(gamma_dot),
-            omega,
-            relaxation::tangent_fluidity(&self.0, self.1, rho, omega, q),
-        ]
+        vec![gamma_dot, self.0.stress(gamma_dot), self.0.tangent_viscosity(gamma_dot), omega]
     }
 }
 
@@ -200,16 +197,61 @@ impl Kernel for WallKernel {
     fn run<L: Lane>(&self, x: &[L]) -> Vec<L> {
         let v = [x[1], x[2], x[3]];
         let mut out: Vec<L> = (1..Q).map(|i| bounce_back(x[0], i, L::one() + x[4], &v)).collect();
-        let along = tangential(&v, &[0.6, 0.0, 0.8]);
-        out.extend(along);
-        out.extend(curvature_velocity(&along, x[5].abs()));
         let excess = std::array::from_fn(|i| x[i % x.len()]);
         out.extend(link_correction(&excess, |i| i % 3 == 1));
+        // The face at the low end of the second axis.
+        let walls = (1..Q).filter(|&i| lahar::lattice::C[i][1] == -1).fold(0, |links, i| links | 1 << i);
+        if let Some(flat) = FlatWall::of(walls) {
+            out.extend(flat.first_moment(&excess));
+            out.extend(flat.vector(&flat.tangential(&v)));
+        }
         let q = std::array::from_fn(|k| x[6 + k]);
         for wanted in [0.0, 0.02, 0.3] {
             out.extend(stress_source(&v, &q, L::splat(wanted), L::splat(1.0 / 0.55)));
         }
         out
+    }
+}
+
+/// The law by stress, with stresses around the threshold of the law and forces over many decades.
+struct SlipKernel(Prepared, lahar::setup::YieldTreatment);
+impl Kernel for SlipKernel {
+    fn run<L: Lane>(&self, x: &[L]) -> Vec<L> {
+        let (q, rho) = (x[0], x[1]);
+        let omega = relaxation::omega(&self.0, self.1, rho, q, x[2]);
+        let slow = SlowBranch::of(&self.0, self.1);
+        let mut out = Vec::new();
+        for (force, traction, floor) in
+            [(0.1, 1.0, 0.0), (1e-3, 1.1, 1e-9), (1e-6, 1.0, -1e-7), (2.0, 0.3, 0.0), (0.0, 1.0, 0.0)]
+        {
+            let wall = WallStress {
+                cell: (L::one() - L::splat(0.5) * omega) * q,
+                traction: L::splat(traction) * q,
+                force: L::splat(force) * q,
+                floor: L::splat(floor),
+                local: L::splat(0.1) * omega,
+                rho,
+                omega,
+                magnitude: q,
+            };
+            out.push(newtonian_slip(&wall, omega));
+            let flow = |sigma| relaxation::flow(&self.0, self.1, slow.as_ref(), omega, sigma);
+            out.push(wall_law::slip(&wall, self.0.thickens(), flow));
+        }
+        out
+    }
+}
+
+#[test]
+fn parity_of_the_law_by_stress() {
+    for law in LAWS {
+        for treatment in TREATMENTS {
+            compare(
+                &SlipKernel(law.prepare(), treatment),
+                &stresses(&law),
+                &format!("{law:?} {treatment:?}"),
+            );
+        }
     }
 }
 

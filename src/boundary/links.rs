@@ -2,7 +2,9 @@
 //! solid or a mirror plane.
 
 use super::bounce_back::surface_velocity;
-use crate::lattice::{C, Q, direction, opposite};
+use super::flat_wall::FlatWall;
+use crate::lattice::equilibrium::dot;
+use crate::lattice::{C, Q, W, direction, opposite};
 use crate::setup::{Face, Setup};
 
 /// Where a population comes from.
@@ -33,8 +35,10 @@ pub(crate) struct BoundaryCell {
     pub cell: u32,
     /// Source of each arriving population; entry 0 is the cell itself.
     pub sources: [Source; Q],
-    /// Unit vector towards the wall, weighted over the links that hit it; zero at a mirror plane.
-    pub normal: [f64; 3],
+    /// The wall, if the links that hit it are those of one face.
+    pub flat: Option<FlatWall>,
+    /// Σ 6 w_i c_i (c_i·u_w) over the links that hit a wall: what a moving wall adds to the traction, by density.
+    pub drag: [f64; 3],
     /// Whether any link hits a wall or solid (an open face is neither).
     pub touches_wall: bool,
     /// Bit i: the link along c_i hits a wall or solid.
@@ -200,46 +204,30 @@ pub(crate) fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> 
     let at = setup.coordinates(cell);
     let mut sources = [Source::Cell { cell: cell as u32, direction: 0 }; Q];
     let mut ordinary = true;
-    let mut towards = [0; 3];
-    let mut spread = [0; 3];
+    let mut drag = [0.0; 3];
     let mut walls = 0;
     for i in 1..Q {
         let (source, plain) = resolve(setup, at, i);
         sources[i] = source;
         ordinary &= plain;
-        if let Source::Wall { .. } = source {
-            // The wall lies along −c_i; weights in units of 1/36 keep the sums exact.
-            let w = if i <= 6 { 2 } else { 1 };
-            walls |= 1 << opposite(i);
+        if let Source::Wall { velocity, .. } = source {
+            // The wall lies along −c_i.
+            let out = opposite(i);
+            walls |= 1 << out;
+            let part = 6.0 * W[out] * dot(out, &velocity);
             for a in 0..3 {
-                towards[a] -= w * C[i][a];
-                spread[a] += w * C[i][a] * C[i][a];
+                drag[a] += part * f64::from(C[out][a]);
             }
         }
     }
-    let touches_wall = spread.iter().any(|&s| s > 0);
     (!ordinary).then(|| BoundaryCell {
         cell: cell as u32,
         sources,
-        normal: if touches_wall { wall_normal(towards, spread) } else { [0.0; 3] },
-        touches_wall,
+        flat: FlatWall::of(walls),
+        drag,
+        touches_wall: walls != 0,
         walls,
     })
-}
-
-/// Unit wall normal of a cell; between two parallel walls, the axis most links cross.
-fn wall_normal(towards: [i32; 3], spread: [i32; 3]) -> [f64; 3] {
-    let squared: i32 = towards.iter().map(|t| t * t).sum();
-    if squared > 0 {
-        return towards.map(|t| f64::from(t) / f64::from(squared).sqrt());
-    }
-    let mut axis = 0;
-    for a in 1..3 {
-        if spread[a] > spread[axis] {
-            axis = a;
-        }
-    }
-    std::array::from_fn(|a| if a == axis { 1.0 } else { 0.0 })
 }
 
 /// Source of population `i` arriving at `at`, and whether it is the ordinary upstream cell.

@@ -1,56 +1,30 @@
 //! The viscosity-independent wall \[B3\] and the residual force it needs.
 
+use super::wall_law::WallStress;
 use crate::lane::Lane;
 use crate::lattice::moments::density_excess;
-use crate::lattice::unroll::{directions, six, three};
+use crate::lattice::unroll::{directions, six};
 use crate::lattice::{CS2, Q, W};
 
-/// f_t / (8 dσ/dγ̇) = |u″|/8: what the curvature of the velocity profile adds over the half cell
-/// between node and wall.
+/// f (1/(8μ) − κ/ρ), at most 3T/ρ: the slip \[B3\] of a fluid whose viscosity is the same everywhere.
 ///
-/// With the apparent viscosity in place of dσ/dγ̇ (as the method says) the wall node of a Bingham or
-/// Herschel-Bulkley channel is off by up to 0.064 F/μ cells².
+/// f/(8μ) = |u″|/8 is what the curvature of the velocity profile adds over the half cell between node and wall, fκ/ρ
+/// what the odd departure carries of it. For such a fluid the law by stress ([`super::wall_law::slip`]) is this in closed
+/// form, since Γ = σ²/(2μ).
 ///
 /// # Arguments
-/// `tangential`: tangential part of F − ∇p. `tangent_fluidity`: 1/(dσ/dγ̇) of the cell, 0 if rigid.
+/// `wall`: the cell. `fluidity`: 1/μ.
 /// # Returns
-/// The velocity to add to u_w in \[B1\].
+/// The slip along the driving force, lattice units.
 /// # Source
-/// docs/method.md \[B3\], second term; dσ/dγ̇ = ρ(τ⁺ − ½)/3 for a Newtonian fluid.
+/// docs/method.md \[B3\].
 /// # Verified by
-/// Claims `poiseuille-newtonian-b3`, `poiseuille-wall-node-error`.
+/// Claims `poiseuille-newtonian-b3`, `poiseuille-newtonian-b3-large-tau`.
 #[inline(always)]
-pub fn curvature_velocity<L: Lane>(tangential: &[L; 3], tangent_fluidity: L) -> [L; 3] {
-    three(
-        #[inline(always)]
-        |a| tangential[a] * (L::splat(1.0 / 8.0) * tangent_fluidity),
-    )
-}
-
-/// The curvature velocity, at most γ̇/4 in magnitude.
-///
-/// γ̇/2 is what the profile gains over the half cell by its slope alone; a curvature that takes back more
-/// than half of that belongs to a sheared layer thinner than 3/(4n) cells, or is no curvature at all: where
-/// a front collapses F − ∇p is mostly inertia, and a shear-thinning fluid would turn it into a wall that
-/// drives the flow.
-///
-/// # Arguments
-/// `velocity`: see [`curvature_velocity`]. `gamma_dot`: shear rate of the cell.
-/// # Source
-/// docs/method.md \[B3\], for flows with a free surface.
-/// # Verified by
-/// Test `limit_of_curvature`; claim `thesis-run-c` (without it that run blows up within 130 steps).
-#[inline(always)]
-pub(crate) fn limited_curvature<L: Lane>(velocity: &[L; 3], gamma_dot: L) -> [L; 3] {
-    let squared = (velocity[0] * velocity[0] + velocity[1] * velocity[1]) + velocity[2] * velocity[2];
-    let speed = squared.sqrt();
-    let most = L::splat(0.25) * gamma_dot;
-    let excessive = most.less(speed);
-    let scale = L::select(excessive, most / L::select(excessive, speed, L::one()), L::one());
-    three(
-        #[inline(always)]
-        |a| velocity[a] * scale,
-    )
+pub fn newtonian_slip<L: Lane>(wall: &WallStress<L>, fluidity: L) -> L {
+    let slip = wall.force * (L::splat(0.125) * fluidity - wall.local / wall.rho);
+    let most = L::splat(3.0) * L::larger(wall.traction, L::zero()) / wall.rho;
+    L::smaller(slip, most)
 }
 
 /// How much of the curvature term the odd departure of the cell carries: min(3/(8(τ⁺ − ½)), 2(τ⁻ − ½)).
@@ -59,7 +33,7 @@ pub(crate) fn limited_curvature<L: Lane>(velocity: &[L; 3], gamma_dot: L) -> [L;
 /// corrects position and slip at once and includes the inertia that F − ∇p leaves out: for a Newtonian
 /// fluid at Λ = 3/16 it is zero, as it should be. The second bound keeps the factor from turning
 /// negative, so that the wall damps the departure at least as much as plain bounce-back; what is left of
-/// the curvature is taken from F − ∇p ([`curvature_velocity`]).
+/// the curvature is taken from the law by stress ([`super::wall_law::slip`]).
 ///
 /// # Arguments
 /// `omega`, `odd_omega`: the cell's ω⁺ and ω⁻; ω⁺ = 0 (rigid) gives 0.
@@ -116,25 +90,6 @@ pub fn link_correction<L: Lane>(excess: &[L; Q], is_wall: impl Fn(usize) -> bool
     )
 }
 
-/// v − (v·n) n
-///
-/// # Source
-/// docs/method.md \[B3\].
-/// # Verified by
-/// Claim `poiseuille-newtonian-b3`.
-#[inline(always)]
-pub fn tangential<L: Lane>(v: &[L; 3], normal: &[f64; 3]) -> [L; 3] {
-    let n = three(
-        #[inline(always)]
-        |a| L::splat(normal[a]),
-    );
-    let along = (v[0] * n[0] + v[1] * n[1]) + v[2] * n[2];
-    three(
-        #[inline(always)]
-        |a| v[a] - along * n[a],
-    )
-}
-
 /// ∂p from the densities of the two neighbours along one axis; one-sided where one is missing,
 /// zero where both are.
 ///
@@ -187,18 +142,4 @@ pub fn stress_source<L: Lane>(residual: &[L; 3], q: &[L; 6], excess_wanted: L, o
             L::splat(2.0 / 3.0) * ((weight * residual[a]) * share)
         },
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn limit_of_curvature() {
-        let slow = [0.003, 0.0, -0.004];
-        assert_eq!(limited_curvature(&slow, 0.02), slow);
-        assert_eq!(limited_curvature(&slow, 0.01), [0.0015, 0.0, -0.002]);
-        // A rigid cell has no curvature to add.
-        assert_eq!(limited_curvature(&slow, 0.0), [0.0, 0.0, -0.0]);
-    }
 }

@@ -1,6 +1,6 @@
 //! σ = σ0 + μ γ̇.
 
-use super::Rheology;
+use super::{Flow, Rheology};
 use crate::lane::Lane;
 
 /// Bingham fluid.
@@ -34,5 +34,10 @@ impl Rheology for Bingham {
     #[inline(always)]
     fn tangent_viscosity<L: Lane>(&self, _gamma_dot: L) -> L {
         L::splat(self.mu)
+    }
+
+    #[inline(always)]
+    fn flow<L: Lane>(&self, sigma: L) -> Flow<L> {
+        Flow::power(self.mu, 1.0, sigma - L::splat(self.sigma0))
     }
 }

@@ -1,7 +1,7 @@
 //! σ = σ0 + K γ̇ⁿ.
 
-use super::Rheology;
 use super::power_sum::PowerSum;
+use super::{Flow, Rheology};
 use crate::lane::Lane;
 
 /// Herschel-Bulkley fluid, with the table of its local solve.
@@ -56,5 +56,15 @@ impl Rheology for HerschelBulkley {
     #[inline(always)]
     fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
         L::splat(self.n * self.k) * (L::splat(self.n - 1.0) * gamma_dot.ln()).exp()
+    }
+
+    #[inline(always)]
+    fn flow<L: Lane>(&self, sigma: L) -> Flow<L> {
+        Flow::power(self.k, self.n, sigma - L::splat(self.sigma0))
+    }
+
+    #[inline(always)]
+    fn thickens(&self) -> bool {
+        self.n > 1.0
     }
 }

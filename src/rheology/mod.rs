@@ -3,6 +3,7 @@
 pub(crate) mod bagnold;
 mod bingham;
 mod curve;
+mod flow;
 mod herschel_bulkley;
 mod newtonian;
 mod papanastasiou;
@@ -18,12 +19,16 @@ use crate::units::Units;
 
 pub use bingham::Bingham;
 pub(crate) use curve::{FlowCurve, PowerCurve};
+pub use flow::Flow;
 pub use herschel_bulkley::HerschelBulkley;
 pub use newtonian::Newtonian;
 pub use papanastasiou::Papanastasiou;
 pub use power_law::PowerLaw;
 pub use power_sum::PowerSum;
 pub use yielding::YieldTreatment;
+
+/// A density that adds nothing to the stress, with a logarithm.
+const VANISHING: f64 = 1e-200;
 
 /// A monotone law σ(γ̇) in lattice units, ready for use in every cell.
 pub trait Rheology: Clone + Send + Sync + 'static {
@@ -46,6 +51,30 @@ pub trait Rheology: Clone + Send + Sync + 'static {
     /// Tangent dynamic viscosity dσ/dγ̇ of the flowing fluid: how much the shear rate changes with the
     /// stress, hence with the distance from a wall.
     fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L;
+
+    /// The law read the other way round, for σ ≥ 0: what the wall law \[B3\] integrates over the half cell at a wall.
+    ///
+    /// As written here γ̇ is the local solve at a vanishing density, and Γ = σγ̇ − ∫ σ dγ̇ by five points in √γ̇;
+    /// laws that have closed forms give them.
+    #[inline(always)]
+    fn flow<L: Lane>(&self, sigma: L) -> Flow<L> {
+        let rate = self.shear_rate(L::splat(VANISHING), sigma);
+        let flowing = L::zero().less(rate);
+        let safe = L::select(flowing, rate, L::one());
+        let integral = sigma * rate - flow::work(safe, |gamma_dot| self.stress(gamma_dot));
+        let zero = L::zero();
+        Flow {
+            rate,
+            slope: L::select(flowing, L::one() / self.tangent_viscosity(safe), zero),
+            integral: L::select(flowing, integral, zero),
+        }
+    }
+
+    /// Whether the fluid thickens, σ(γ̇) being convex: then γ̇(σ) starts with an infinite slope.
+    #[inline(always)]
+    fn thickens(&self) -> bool {
+        false
+    }
 
     /// Apparent dynamic viscosity σ(γ̇)/γ̇; infinite or undefined at γ̇ = 0 for yield-stress laws.
     #[inline(always)]
@@ -260,6 +289,14 @@ impl Rheology for Prepared {
     #[inline(always)]
     fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
         for_each_law!(self, law => law.tangent_viscosity(gamma_dot))
+    }
+    #[inline(always)]
+    fn flow<L: Lane>(&self, sigma: L) -> Flow<L> {
+        for_each_law!(self, law => law.flow(sigma))
+    }
+    #[inline(always)]
+    fn thickens(&self) -> bool {
+        for_each_law!(self, law => law.thickens())
     }
     #[inline(always)]
     fn viscosity<L: Lane>(&self, gamma_dot: L) -> L {

@@ -1,6 +1,6 @@
 //! σ = μ γ̇.
 
-use super::Rheology;
+use super::{Flow, Rheology};
 use crate::lane::Lane;
 
 /// Newtonian fluid.
@@ -48,5 +48,10 @@ impl Rheology for Newtonian {
     #[inline(always)]
     fn tangent_viscosity<L: Lane>(&self, _gamma_dot: L) -> L {
         L::splat(self.mu)
+    }
+
+    #[inline(always)]
+    fn flow<L: Lane>(&self, sigma: L) -> Flow<L> {
+        Flow::newtonian(L::splat(self.mu), sigma)
     }
 }

@@ -1,7 +1,7 @@
 //! σ = σ0 (1 − exp(−m γ̇)) + K γ̇ⁿ.
 
-use super::Rheology;
 use super::curve::{FlowCurve, PowerCurve};
+use super::{Flow, Rheology, VANISHING};
 use crate::lane::{Lane, OfTwo};
 
 /// Herschel-Bulkley fluid regularised after Papanastasiou: no yield surface, a steep viscous start.
@@ -100,6 +100,28 @@ impl Rheology for Papanastasiou {
     fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
         let plastic = L::splat(self.sigma0 * self.m) * (-(L::splat(self.m) * gamma_dot)).exp();
         plastic + L::splat(self.n * self.k) * (L::splat(self.n - 1.0) * gamma_dot.ln()).exp()
+    }
+
+    /// Γ = σγ̇ − σ0 (γ̇ − (1 − exp(−mγ̇))/m) − K γ̇ⁿ⁺¹/(n + 1).
+    #[inline(always)]
+    fn flow<L: Lane>(&self, sigma: L) -> Flow<L> {
+        let rate = self.shear_rate(L::splat(VANISHING), sigma);
+        let flowing = L::zero().less(rate);
+        let safe = L::select(flowing, rate, L::one());
+        let decayed = (-(L::splat(self.m) * safe)).exp_m1();
+        let plastic = L::splat(self.sigma0) * (safe + decayed * L::splat(1.0 / self.m));
+        let power = L::splat(self.k / (self.n + 1.0)) * (L::splat(self.n + 1.0) * safe.ln()).exp();
+        let zero = L::zero();
+        Flow {
+            rate,
+            slope: L::select(flowing, L::one() / self.tangent_viscosity(safe), zero),
+            integral: L::select(flowing, sigma * safe - (plastic + power), zero),
+        }
+    }
+
+    #[inline(always)]
+    fn thickens(&self) -> bool {
+        self.n > 1.0
     }
 }
 

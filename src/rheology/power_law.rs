@@ -1,7 +1,7 @@
 //! σ = K γ̇ⁿ.
 
-use super::Rheology;
 use super::herschel_bulkley::HerschelBulkley;
+use super::{Flow, Rheology};
 use crate::lane::Lane;
 
 /// Power-law fluid: Herschel-Bulkley without yield stress.
@@ -36,5 +36,15 @@ impl Rheology for PowerLaw {
     #[inline(always)]
     fn tangent_viscosity<L: Lane>(&self, gamma_dot: L) -> L {
         self.0.tangent_viscosity(gamma_dot)
+    }
+
+    #[inline(always)]
+    fn flow<L: Lane>(&self, sigma: L) -> Flow<L> {
+        self.0.flow(sigma)
+    }
+
+    #[inline(always)]
+    fn thickens(&self) -> bool {
+        self.0.thickens()
     }
 }

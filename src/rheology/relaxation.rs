@@ -1,7 +1,6 @@
 //! From a law and the state of a cell to the even relaxation rate ω⁺ = 1/τ.
 
-use super::Rheology;
-use super::YieldTreatment;
+use super::{Flow, Rheology, YieldTreatment};
 use crate::lane::Lane;
 
 /// ω⁺ from a shear rate: 1/τ = ρ γ̇ / (3 q); zero where q is zero.
@@ -73,43 +72,84 @@ pub fn omega<L: Lane, R: Rheology>(law: &R, treatment: YieldTreatment, rho: L, q
     }
 }
 
-/// 1/(dσ/dγ̇) of a cell under the chosen treatment: how fast the shear rate changes with the stress.
+/// Where a bound on τ makes a law Newtonian.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlowBranch {
+    /// Viscosity of the bound at density 1.
+    pub mu: f64,
+    /// Stress below which it acts; infinite if it always does.
+    pub stress: f64,
+    /// What Γ of the law lacks above that stress.
+    pub gained: f64,
+}
+
+impl SlowBranch {
+    /// Of a law under a treatment; `None` if no bound on τ acts.
+    ///
+    /// # Source
+    /// docs/method.md \[Y3\]: the bound acts where σ(γ̇)/γ̇ exceeds its viscosity.
+    #[must_use]
+    pub fn of<R: Rheology>(law: &R, treatment: YieldTreatment) -> Option<Self> {
+        let (YieldTreatment::ImplicitClamped { tau_max, .. } | YieldTreatment::LaggedClamped { tau_max, .. }) =
+            treatment
+        else {
+            return None;
+        };
+        let mu = (tau_max - 0.5) / 3.0;
+        // ln γ̇ over all the rates that a number can hold with its square.
+        let (mut low, mut high) = (-300.0, 300.0);
+        let is_slow = |x: f64| mu < law.viscosity(libm::exp(x));
+        if !is_slow(low) {
+            return None;
+        }
+        if is_slow(high) {
+            return Some(Self { mu, stress: f64::INFINITY, gained: 0.0 });
+        }
+        for _ in 0..80 {
+            let middle = 0.5 * (low + high);
+            if is_slow(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let stress = mu * libm::exp(0.5 * (low + high));
+        Some(Self { mu, stress, gained: 0.5 * stress * stress / mu - law.flow(stress).integral })
+    }
+}
+
+/// The law under a stress σ ≥ 0 as a treatment makes it of a cell with relaxation rate `omega`.
 ///
-/// Zero in a rigid cell; where a clamp acts the law is Newtonian and tangent and apparent viscosity
-/// are the same.
+/// The bound τ_max belongs to the law: below [`SlowBranch::stress`] it is Newtonian. The bound τ_min acts in cells that
+/// have reached it only; as a part of the law it would give the wall a second root.
 ///
 /// # Source
-/// docs/method.md \[B3\]; the apparent viscosity is right there only for a Newtonian fluid.
-/// # Verified by
-/// Claim `poiseuille-wall-node-error`.
+/// docs/method.md \[B3\].
 #[inline(always)]
-pub fn tangent_fluidity<L: Lane, R: Rheology>(
+pub fn flow<L: Lane, R: Rheology>(
     law: &R,
     treatment: YieldTreatment,
-    rho: L,
+    slow: Option<&SlowBranch>,
     omega: L,
-    q: L,
-) -> L {
-    let half = L::splat(0.5);
-    // 1/(ρν) = 3/(ρ(τ − ½)) = 3ω/(ρ(1 − ω/2)), finite at ω = 0.
-    let apparent = L::splat(3.0) * omega / (rho * (L::one() - half * omega));
-    if law.constant_tau().is_some() {
-        return apparent;
+    sigma: L,
+) -> Flow<L> {
+    let mut flow = law.flow(sigma);
+    if let Some(slow) = slow {
+        flow.integral = flow.integral + L::splat(slow.gained);
+        let newtonian = Flow::newtonian(L::splat(slow.mu), sigma);
+        flow = Flow::select(sigma.less_equal(L::splat(slow.stress)), &newtonian, &flow);
     }
-    let gamma_dot = shear_rate_of_omega(rho, omega, q);
-    let flowing = L::zero().less(gamma_dot);
-    let safe = L::select(flowing, gamma_dot, L::one());
-    let tangent = L::select(flowing, L::one() / law.tangent_viscosity(safe), L::zero());
     match treatment {
-        YieldTreatment::Exact => tangent,
-        YieldTreatment::ImplicitClamped { tau_min, tau_max }
-        | YieldTreatment::LaggedClamped { tau_min, tau_max } => {
-            let slow = omega.less_equal(L::splat(1.0 / tau_max));
-            let fast = L::splat(1.0 / tau_min).less_equal(omega);
-            L::select(slow, apparent, L::select(fast, apparent, tangent))
+        YieldTreatment::Exact => flow,
+        YieldTreatment::ImplicitClamped { tau_min, .. } | YieldTreatment::LaggedClamped { tau_min, .. } => {
+            let newtonian = Flow::newtonian(L::splat((tau_min - 0.5) / 3.0), sigma);
+            Flow::select(L::splat(AT_BOUND / tau_min).less_equal(omega), &newtonian, &flow)
         }
     }
 }
+
+/// Rates within a few roundings of a bound have reached it.
+const AT_BOUND: f64 = 1.0 - 1e-12;
 
 /// x limited to \[low, high\]; NaN becomes `high`.
 #[inline(always)]

@@ -1,13 +1,12 @@
 //! What one cell does in one step. Everything here reads the previous array only.
 
+use crate::boundary::flat_wall::FlatWall;
 use crate::boundary::links::Links;
-use crate::boundary::wall_slip::{
-    limited_curvature, link_correction, local_curvature, pressure_slope, stress_source, tangential,
-};
+use crate::boundary::wall_law::WallStress;
+use crate::boundary::wall_slip::{link_correction, local_curvature, pressure_slope, stress_source};
 use crate::lane::Lane;
 use crate::lattice::moments::{Moments, add_third, density_excess, deviator};
 use crate::lattice::{C, Q, opposite};
-use crate::rheology::relaxation::shear_rate_of_omega;
 use crate::solver::physics::Physics;
 use crate::solver::run::Runaway;
 
@@ -71,57 +70,92 @@ pub(crate) fn residual_force(
 pub(crate) struct Situation<L = f64> {
     /// F − ∇p of the cell.
     pub residual: [L; 3],
+    /// Σ 6 w_i c_i (c_i·u_w) over the wall links.
+    pub drag: [L; 3],
     /// Number of the fluid in it.
     pub fluid: u8,
     /// Whether \[K6\] acts.
     pub sourced: bool,
-    /// Whether the curvature term is bounded, as below a free surface.
-    pub limited: bool,
+    /// Directions that lead into walls, one bit each.
+    pub walls: u32,
+    /// The wall, where the law by stress acts: at faces, in cells that are full.
+    pub flat: Option<FlatWall>,
 }
 
 /// What the viscosity-independent wall subtracts from the populations leaving a boundary cell \[B3\].
-///
-/// `walls`: bit i is set where the link along c_i hits a wall. `normal`: unit vector towards it.
 #[inline(always)]
 pub(crate) fn wall_correction<L: Lane, P: Physics>(
     physics: &P,
-    walls: u32,
-    normal: &[f64; 3],
     h: &[L; Q],
     state: &State<L>,
     situation: &Situation<L>,
 ) -> [L; Q] {
-    let Situation { residual, fluid, sourced, limited } = situation;
     let rho = state.m.rho;
     let odd_omega = physics.odd_omega(state.omega);
-    let fluidity = physics.tangent_fluidity(*fluid, rho, state.omega, physics.stress_magnitude(&state.m));
     let local = local_curvature(state.omega, odd_omega);
     let mut excess = [L::zero(); Q];
-    if *sourced {
-        add_stress_source(physics, &mut excess, state, residual);
+    if situation.sourced {
+        add_stress_source(physics, &mut excess, state, &situation.residual);
     }
     let keep = (L::splat(2.0) - odd_omega) - odd_omega * local;
     let departure = physics.odd_departure(h, &state.m);
     for i in 1..Q {
         excess[i] = excess[i] + keep * departure[i];
     }
+    let walls = situation.walls;
     let mut correction = link_correction(
         &excess,
         #[inline(always)]
         |i| walls >> i & 1 != 0,
     );
-    let along = tangential(residual, normal);
-    let mut curved = physics.curvature_velocity(&along, fluidity - L::splat(8.0) * local / rho);
-    if *limited {
-        let gamma_dot = shear_rate_of_omega(rho, state.omega, physics.stress_magnitude(&state.m));
-        curved = limited_curvature(&curved, gamma_dot);
-    }
-    for i in 1..Q {
-        if walls >> i & 1 != 0 {
-            correction[i] = correction[i] - physics.wall(L::zero(), i, rho, &curved);
+    if let Some(flat) = situation.flat {
+        let slip = slip_velocity(physics, flat, h, state, situation, &excess);
+        for i in 1..Q {
+            if walls >> i & 1 != 0 {
+                correction[i] = correction[i] - physics.wall(L::zero(), i, rho, &slip);
+            }
         }
     }
     correction
+}
+
+/// The slip of a flat wall, along the driving force (F − ∇p)_t \[B3\]. `excess`: by link, what the link correction
+/// takes away.
+#[inline(always)]
+fn slip_velocity<L: Lane, P: Physics>(
+    physics: &P,
+    flat: FlatWall,
+    h: &[L; Q],
+    state: &State<L>,
+    situation: &Situation<L>,
+    excess: &[L; Q],
+) -> [L; 3] {
+    let (rho, omega) = (state.m.rho, state.omega);
+    let driving = flat.tangential(&situation.residual);
+    let force = (driving[0] * driving[0] + driving[1] * driving[1]).sqrt();
+    let acts = L::zero().less(force);
+    let safe = L::select(acts, force, L::one());
+    let e = [driving[0] / safe, driving[1] / safe];
+    let along = |v: [L; 2]| e[0] * v[0] + e[1] * v[1];
+    let mut post = physics.collide(h, &state.m, omega);
+    if situation.sourced {
+        add_stress_source(physics, &mut post, state, &situation.residual);
+    }
+    let impulse = along(flat.first_moment(&post));
+    let drag = along(flat.tangential(&situation.drag));
+    let stress = along(flat.traction(&deviator(&state.m.q)));
+    let wall = WallStress {
+        cell: (L::one() - L::splat(0.5) * omega) * stress,
+        traction: L::splat(2.0) * impulse - rho * drag,
+        force,
+        floor: L::splat(3.0) / rho * along(flat.first_moment(excess)),
+        local: local_curvature(omega, physics.odd_omega(omega)),
+        rho,
+        omega,
+        magnitude: physics.stress_magnitude(&state.m),
+    };
+    let slip = physics.slip(situation.fluid, &wall);
+    flat.vector(&[e[0] * slip, e[1] * slip])
 }
 
 /// Adds the source of \[K6\] to post-collision populations.

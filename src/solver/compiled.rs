@@ -42,13 +42,10 @@ pub(crate) fn with_newtonian_loop<C: Collision, W: Compiled>(
 
 /// The loop that chooses law and operator per cell.
 pub(crate) fn with_shared_loop<W: Compiled>(setup: &Setup, work: W) -> W::Result {
-    work.with(Standard {
-        laws: setup.fluids.iter().map(Law::prepare).collect(),
-        treatment: setup.yielding,
-        collision: setup.collision,
-    })
+    let laws = setup.fluids.iter().map(Law::prepare).collect();
+    work.with(Standard::new(laws, setup.yielding, setup.collision))
 }
 
 fn standard<R: Rheology, C: Collision>(setup: &Setup, law: R, collision: C) -> Standard<R, C> {
-    Standard { laws: vec![law], treatment: setup.yielding, collision }
+    Standard::new(vec![law], setup.yielding, collision)
 }

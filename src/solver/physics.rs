@@ -5,11 +5,13 @@
 //! each, and the right one pays nothing for it. The equations of the free surface are in
 //! [`crate::free_surface`].
 
-use crate::boundary::{bounce_back, wall_slip};
+use crate::boundary::wall_law::WallStress;
+use crate::boundary::{bounce_back, wall_law, wall_slip};
 use crate::collision::Collision;
 use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::moments::{self, Moments};
+use crate::rheology::relaxation::SlowBranch;
 use crate::rheology::{Rheology, relaxation};
 use crate::setup::YieldTreatment;
 
@@ -56,17 +58,11 @@ pub trait Physics: Clone + Send + Sync + 'static {
     /// passes it unchanged: −(f_i^eq − f_ī^eq) beyond second order.
     fn wall_cubic(&self, i: usize, rho: f64, u_wall: &[f64; 3]) -> f64;
 
-    /// 1/(dσ/dγ̇) of a cell, zero where rigid \[B3\].
-    fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L;
-
     /// Odd non-equilibrium that relaxes with ω⁻ \[B3\].
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q];
 
-    /// Velocity that the curvature of the profile adds over half a cell \[B3\].
-    #[inline(always)]
-    fn curvature_velocity<L: Lane>(&self, tangential: &[L; 3], fluidity: L) -> [L; 3] {
-        wall_slip::curvature_velocity(tangential, fluidity)
-    }
+    /// Slip of a flat wall along the driving force \[B3\].
+    fn slip<L: Lane>(&self, fluid: u8, wall: &WallStress<L>) -> L;
 }
 
 /// The physics of docs/method.md, for one law type and one collision type.
@@ -78,6 +74,17 @@ pub struct Standard<R, C> {
     pub treatment: YieldTreatment,
     /// The collision operator.
     pub collision: C,
+    /// Where the treatment makes the laws Newtonian.
+    slow: Vec<Option<SlowBranch>>,
+}
+
+impl<R: Rheology, C: Collision> Standard<R, C> {
+    /// From the laws, by fluid number.
+    #[must_use]
+    pub fn new(laws: Vec<R>, treatment: YieldTreatment, collision: C) -> Self {
+        let slow = laws.iter().map(|law| SlowBranch::of(law, treatment)).collect();
+        Self { laws, treatment, collision, slow }
+    }
 }
 
 impl<R: Rheology, C: Collision> Physics for Standard<R, C> {
@@ -96,8 +103,18 @@ impl<R: Rheology, C: Collision> Physics for Standard<R, C> {
     }
 
     #[inline(always)]
-    fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L {
-        relaxation::tangent_fluidity(&self.laws[usize::from(fluid)], self.treatment, rho, omega, q)
+    fn slip<L: Lane>(&self, fluid: u8, wall: &WallStress<L>) -> L {
+        let law = &self.laws[usize::from(fluid)];
+        if let Some(tau) = law.constant_tau() {
+            return wall_slip::newtonian_slip(wall, L::splat(3.0 / (tau - 0.5)) / wall.rho);
+        }
+        let slow = self.slow[usize::from(fluid)].as_ref();
+        wall_law::slip(
+            wall,
+            law.thickens(),
+            #[inline(always)]
+            |sigma| relaxation::flow(law, self.treatment, slow, wall.omega, sigma),
+        )
     }
 
     #[inline(always)]

@@ -3,7 +3,6 @@
 use crate::dem::DemError;
 use crate::plan::Plan;
 use crate::run::stop::{StopPlace, StopReport};
-use crate::setup::WallRule;
 use crate::solver::run::{Runaway, Stopped};
 
 /// A report about a run of the scene `file`. `failure`: what the discrete element method says. `number`: number at time
@@ -75,12 +74,6 @@ fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
     } else if matches!(stopped.what, Runaway::GrainTooFast { .. }) {
         "grains fall faster than the velocity scale assumed; give `numerics.reference_velocity_m_per_s` or a smaller \
          time step"
-    } else if stopped.tau < 0.52
-        && numbers.depth_cells.is_some()
-        && plan.setup.wall_rule == WallRule::ViscosityIndependent
-    {
-        "the relaxation time is near ½ below a free surface; a finer `domain.spacing_m`, a larger viscosity, or \
-         `half_way` walls"
     } else if stopped.tau < 0.55 {
         "the relaxation time is near ½, where waves grow [K5]; a finer `domain.spacing_m` or a larger viscosity"
     } else if stopped.tau.is_finite() && stopped.tau > 3.0 && !plan.numbers.operator.has_odd_rate() {

@@ -1,6 +1,7 @@
 //! One block: what surrounds it, which packs are ordinary, and the links that are not.
 
 use super::layout::Layout;
+use crate::boundary::flat_wall::FlatWall;
 use crate::boundary::links::{BoundaryCell, Source, boundary_cell};
 use crate::lattice::{C, Q, direction, opposite};
 use crate::setup::Setup;
@@ -58,8 +59,10 @@ pub(crate) struct RimCell {
     pub walls: u32,
     /// Whether a link is open.
     pub open: bool,
-    /// Unit vector towards the wall, as in [`BoundaryCell`].
-    pub normal: [f64; 3],
+    /// The wall and its motion, as in [`BoundaryCell`].
+    pub flat: Option<FlatWall>,
+    /// See [`BoundaryCell::drag`].
+    pub drag: [f64; 3],
     /// Neighbours along the axes, low and high: for the pressure gradient \[B3\].
     pub neighbours: [[Option<Place>; 2]; 3],
 }
@@ -173,7 +176,8 @@ impl Block {
             local: local as u16,
             walls: 0,
             open: false,
-            normal: record.as_ref().map_or([0.0; 3], |r| r.normal),
+            flat: record.as_ref().and_then(|r| r.flat),
+            drag: record.as_ref().map_or([0.0; 3], |r| r.drag),
             neighbours: [[None; 2]; 3],
         };
         let number = self.rim.len() as u16;

@@ -3,6 +3,7 @@
 use super::element::MOST;
 use super::layout::Layout;
 use super::registers::Registers;
+use crate::boundary::flat_wall::FlatWall;
 use crate::lattice::Q;
 use crate::lattice::unroll::{directions, three};
 use crate::solver::cell::{Situation, State, wall_correction};
@@ -37,8 +38,6 @@ pub(crate) struct WallTask<'a, P> {
     pub density: &'a [Vec<f64>],
     /// \[K6\].
     pub sourced: bool,
-    /// Below a free surface.
-    pub limited: bool,
 }
 
 /// What a correction takes from around its cell.
@@ -50,13 +49,13 @@ pub(crate) struct Given {
 }
 
 /// What the cells of a group have in common.
-pub(crate) struct Alike<'a> {
+pub(crate) struct Alike {
     /// Cells of the group.
     pub count: usize,
     /// Directions that lead into walls, one bit each.
     pub walls: u32,
-    /// Normal of the walls.
-    pub normal: &'a [f64; 3],
+    /// The wall, where the law by stress acts.
+    pub flat: Option<FlatWall>,
     /// Number of the fluid.
     pub fluid: u8,
 }
@@ -67,6 +66,7 @@ pub(crate) struct Columns {
     f: [[f64; MOST]; Q],
     force: [[f64; MOST]; 3],
     residual: [[f64; MOST]; 3],
+    drag: [[f64; MOST]; 3],
     omega: [f64; MOST],
 }
 
@@ -75,17 +75,18 @@ impl Columns {
     #[must_use]
     pub fn new() -> Self {
         let zeros = [0.0; MOST];
-        Self { f: [zeros; Q], force: [zeros; 3], residual: [zeros; 3], omega: zeros }
+        Self { f: [zeros; Q], force: [zeros; 3], residual: [zeros; 3], drag: [zeros; 3], omega: zeros }
     }
 
     /// A cell into a lane.
-    pub(crate) fn put(&mut self, lane: usize, kept: &Rim, given: &Given) {
+    pub(crate) fn put(&mut self, lane: usize, kept: &Rim, given: &Given, drag: &[f64; 3]) {
         for (column, f) in self.f.iter_mut().zip(&kept.f) {
             column[lane] = *f;
         }
         for a in 0..3 {
             self.force[a][lane] = given.force[a];
             self.residual[a][lane] = given.residual[a];
+            self.drag[a][lane] = drag[a];
         }
         self.omega[lane] = kept.omega;
     }
@@ -105,19 +106,25 @@ impl Columns {
                 #[inline(always)]
                 |i| R::load_wide(&self.f[i][part..]),
             );
-            let force = three(
-                #[inline(always)]
-                |a| R::load_wide(&self.force[a][part..]),
-            );
-            let residual = three(
-                #[inline(always)]
-                |a| R::load_wide(&self.residual[a][part..]),
-            );
-            let omega = R::load_wide(&self.omega[part..]);
-            let state = State { m: task.physics.moments(&h, &force), omega };
-            let (sourced, limited) = (task.sourced, task.limited);
-            let situation = Situation { residual, fluid: alike.fluid, sourced, limited };
-            let correction = wall_correction(task.physics, alike.walls, alike.normal, &h, &state, &situation);
+            let load = |columns: &[[f64; MOST]; 3]| {
+                three(
+                    #[inline(always)]
+                    |a| R::load_wide(&columns[a][part..]),
+                )
+            };
+            let state = State {
+                m: task.physics.moments(&h, &load(&self.force)),
+                omega: R::load_wide(&self.omega[part..]),
+            };
+            let situation = Situation {
+                residual: load(&self.residual),
+                drag: load(&self.drag),
+                fluid: alike.fluid,
+                sourced: task.sourced,
+                walls: alike.walls,
+                flat: alike.flat,
+            };
+            let correction = wall_correction(task.physics, &h, &state, &situation);
             for i in 0..Q {
                 R::store_wide(correction[i], &mut self.f[i][part..]);
             }

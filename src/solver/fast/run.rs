@@ -16,6 +16,7 @@ use super::surface::state::Surface;
 use super::task::{Outcome, Own, Task};
 use super::walls::correct;
 use crate::coupling::Immersed;
+use crate::free_surface::Kind;
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
 use crate::setup::{Setup, WallRule, YieldTreatment};
@@ -279,13 +280,13 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             layout: &self.layout,
             density: &self.density,
             sourced: self.setup.stress_source,
-            limited: self.surface.is_some(),
         };
         let items = rim.iter_mut().enumerate().filter(|(_, rim)| !rim.is_empty()).collect();
         each(self.pool.as_ref(), items, |(number, rim): (usize, &mut Vec<Rim>)| {
             let force_of = |local| self.force_of(number, local, force);
+            let is_full = |local| self.is_full(number, local);
             let is_fluid = |place| self.is_fluid(place);
-            correct(self.chosen, &task, &self.blocks[number], rim, &force_of, &is_fluid);
+            correct(self.chosen, &task, &self.blocks[number], rim, &force_of, &is_full, &is_fluid);
         });
         self.rim = rim;
     }
@@ -296,6 +297,11 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             None => Some(*force),
             Some(surface) => surface.force_at(number, local, force),
         }
+    }
+
+    /// Whether a cell is no interface cell.
+    fn is_full(&self, number: usize, local: usize) -> bool {
+        self.surface.as_ref().is_none_or(|surface| surface.kinds[number][local] != Kind::Interface)
     }
 
     /// Whether a cell holds fluid.

@@ -13,30 +13,35 @@ use crate::solver::physics::Physics;
 const GROUP: usize = 8;
 
 /// Corrections of the rim cells of a block: neighbours along the rim with the same walls side by side.
-/// `force(local)`: body force of a fluid cell, `None` if the cell holds no fluid; `is_fluid(place)`: whether a
-/// neighbour does.
+/// `force(local)`: body force of a fluid cell, `None` if the cell holds no fluid; `is_full(local)`:
+/// whether it is no interface cell; `is_fluid(place)`: whether a neighbour holds fluid.
 pub(crate) fn correct<P: Physics>(
     chosen: Chosen,
     task: &WallTask<P>,
     block: &Block,
     rim: &mut [Rim],
     force: &impl Fn(usize) -> Option<[f64; 3]>,
+    is_full: &impl Fn(usize) -> bool,
     is_fluid: &impl Fn(Place) -> bool,
 ) {
     let mut columns = Columns::new();
     let mut group = [0; MOST];
+    let mut flat = None;
     let mut at = 0;
     while at < rim.len() {
         let mut count = 0;
         while count < GROUP && at < rim.len() {
             let cell = &block.rim[at];
-            if count > 0 && !alike(block, &block.rim[group[0]], cell) {
-                break;
-            }
             if cell.walls != 0
                 && let Some(given) = given(task, cell, &rim[at], force, is_fluid)
             {
-                columns.put(count, &rim[at], &given);
+                let wall = cell.flat.filter(|_| is_full(usize::from(cell.local)));
+                if count == 0 {
+                    flat = wall;
+                } else if wall != flat || !alike(block, &block.rim[group[0]], cell) {
+                    break;
+                }
+                columns.put(count, &rim[at], &given, &cell.drag);
                 group[count] = at;
                 count += 1;
             }
@@ -44,8 +49,7 @@ pub(crate) fn correct<P: Physics>(
         }
         if count > 0 {
             let cell = &block.rim[group[0]];
-            let alike =
-                Alike { count, walls: cell.walls, normal: &cell.normal, fluid: fluid_of(block, cell) };
+            let alike = Alike { count, walls: cell.walls, flat, fluid: fluid_of(block, cell) };
             instructions::walls(chosen, task, &mut columns, &alike);
             for (lane, &at) in group[..count].iter().enumerate() {
                 columns.take(lane, &mut rim[at]);
@@ -56,7 +60,7 @@ pub(crate) fn correct<P: Physics>(
 
 /// Whether two cells have the same walls and fluid.
 fn alike(block: &Block, a: &RimCell, b: &RimCell) -> bool {
-    a.walls == b.walls && a.normal == b.normal && fluid_of(block, a) == fluid_of(block, b)
+    a.walls == b.walls && fluid_of(block, a) == fluid_of(block, b)
 }
 
 fn fluid_of(block: &Block, cell: &RimCell) -> u8 {

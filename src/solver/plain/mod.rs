@@ -55,7 +55,7 @@ impl Plain {
     /// # Errors
     /// As [`Backend::start`].
     pub fn start_with<R: Rheology>(&self, setup: &Setup, law: R) -> Result<Box<dyn Run>, StartError> {
-        let physics = Standard { laws: vec![law], treatment: setup.yielding, collision: setup.collision };
+        let physics = Standard::new(vec![law], setup.yielding, setup.collision);
         Ok(Box::new(PlainRun::start(setup, physics)?))
     }
 }

@@ -49,19 +49,19 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             let force = self.force_at(at, force);
             let situation = cell::Situation {
                 residual: self.residual_force(at, &force),
+                drag: record.drag,
                 fluid: self.fluid(at),
                 sourced: self.setup.stress_source,
-                limited: self.surface.is_some(),
+                walls: record.walls,
+                flat: record.flat.filter(|_| !self.is_interface(at)),
             };
-            self.corrections[slot] = cell::wall_correction(
-                &self.physics,
-                record.walls,
-                &record.normal,
-                &self.f[at],
-                &self.state(at, &force),
-                &situation,
-            );
+            self.corrections[slot] =
+                cell::wall_correction(&self.physics, &self.f[at], &self.state(at, &force), &situation);
         }
+    }
+
+    fn is_interface(&self, cell: usize) -> bool {
+        self.surface.as_ref().is_some_and(|surface| surface.kinds[cell] == Kind::Interface)
     }
 
     /// F − ∇p of a cell.
@@ -158,7 +158,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
     /// f_i(x, t+1) = f_i*(x − c_i, t), or what walls, open faces and gas send back.
     #[inline(always)]
     fn gather(&self, cell: usize, at: [usize; 3]) -> Cell {
-        let interface = self.surface.as_ref().is_some_and(|s| s.kinds[cell] == Kind::Interface);
+        let interface = self.is_interface(cell);
         match self.links.kind(cell) {
             CellKind::Bulk if !interface => std::array::from_fn(|i| self.post[self.links.upstream(at, i)][i]),
             CellKind::Bulk => self.gather_links(cell, at, None),

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use lahar::boundary::bounce_back::bounce_back;
 use lahar::boundary::links::Links;
+use lahar::boundary::wall_law::WallStress;
+use lahar::boundary::wall_slip::newtonian_slip;
 use lahar::collision::forcing_guo::{even_source, odd_source};
 use lahar::collision::{Bgk, Collision, CollisionChoice};
 use lahar::free_surface::Kind;
@@ -15,7 +17,7 @@ use lahar::lattice::moments::{
     Moments, density_excess, deviator, magnitude, momentum, non_equilibrium, second,
 };
 use lahar::lattice::{Q, W, opposite};
-use lahar::rheology::{Law, Prepared};
+use lahar::rheology::{Law, Prepared, Rheology};
 use lahar::setup::Setup;
 use lahar::solver::physics::{Physics, Standard};
 use lahar::solver::plain::{Collided, Design, PlainRun, SurfaceLink, SurfacePhysics};
@@ -40,6 +42,8 @@ pub enum Mistake {
     SpinReversed,
     /// \[B3\] with the apparent viscosity.
     ApparentViscosityAtWall,
+    /// \[B3\] as it was until the law by stress: the slip follows the cell's own stress, explicitly.
+    ExplicitWallSlip,
     /// 000 Eq 12: masses for fills in the wetted share.
     ExchangeOfMasses,
     /// 004 Eq 3.31: half the difference of the fills.
@@ -78,11 +82,8 @@ impl Backend for Mistaken {
                 motion.spin = motion.spin.map(|w| -w);
             }
         }
-        let right = Standard {
-            laws: setup.fluids.iter().map(Law::prepare).collect(),
-            treatment: setup.yielding,
-            collision: setup.collision,
-        };
+        let laws: Vec<Prepared> = setup.fluids.iter().map(Law::prepare).collect();
+        let right = Standard::new(laws, setup.yielding, setup.collision);
         let physics = Wrong { right, mistake: self.0 };
         // A wrong surface need not keep its mass: the claim that must catch it measures by how much.
         let links = Arc::new(Links::new(&setup));
@@ -181,12 +182,20 @@ impl Physics for Wrong {
         if self.mistake == Mistake::WallFactor { 0.0 } else { self.right.wall_cubic(i, rho, u_wall) }
     }
 
-    fn tangent_fluidity<L: Lane>(&self, fluid: u8, rho: L, omega: L, q: L) -> L {
-        if self.mistake == Mistake::ApparentViscosityAtWall {
-            // 1/(ρν) = 3ω/(ρ(1 − ω/2)).
-            L::splat(3.0) * omega / (rho * (L::one() - L::splat(0.5) * omega))
-        } else {
-            self.right.tangent_fluidity(fluid, rho, omega, q)
+    fn slip<L: Lane>(&self, fluid: u8, wall: &WallStress<L>) -> L {
+        // 1/(ρν) = 3ω/(ρ(1 − ω/2)).
+        let apparent = L::splat(3.0) * wall.omega / (wall.rho * (L::one() - L::splat(0.5) * wall.omega));
+        match self.mistake {
+            Mistake::ApparentViscosityAtWall => newtonian_slip(wall, apparent),
+            Mistake::ExplicitWallSlip => {
+                let gamma_dot = L::splat(3.0) * wall.magnitude * wall.omega / wall.rho;
+                let flowing = L::zero().less(gamma_dot);
+                let safe = L::select(flowing, gamma_dot, L::one());
+                let law = &self.right.laws[usize::from(fluid)];
+                let tangent = L::select(flowing, L::one() / law.tangent_viscosity(safe), L::zero());
+                wall.force * (L::splat(0.125) * tangent - wall.local / wall.rho)
+            }
+            _ => self.right.slip(fluid, wall),
         }
     }
 }

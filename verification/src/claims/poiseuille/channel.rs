@@ -142,13 +142,18 @@ impl Column {
 
     /// The set-up, started from the continuum flow: saves the time of the start-up.
     pub fn developed(&self) -> Result<Setup, VerifyError> {
+        self.started(1.0)
+    }
+
+    /// The set-up, started from `times` the continuum flow.
+    pub fn started(&self, times: f64) -> Result<Setup, VerifyError> {
         let (exact, column) = (self.exact()?, *self);
         let mut setup = self.setup();
         setup.initial = Some(Arc::new(move |[_, j, _]| {
             let y = column.height(j);
             let mut gradient = [[0.0; 3]; 3];
-            gradient[0][1] = if y < 0.0 { exact.shear_rate(y) } else { -exact.shear_rate(y) };
-            FlowPoint { density: 1.0, velocity: [exact.velocity(y), 0.0, 0.0], gradient }
+            gradient[0][1] = if y < 0.0 { times * exact.shear_rate(y) } else { -times * exact.shear_rate(y) };
+            FlowPoint { density: 1.0, velocity: [times * exact.velocity(y), 0.0, 0.0], gradient }
         }));
         Ok(setup)
     }
@@ -212,6 +217,9 @@ impl FlowCurve for Curve {
     fn yield_stress(&self) -> f64 {
         self.get().yield_stress()
     }
+    fn steep_at_yield(&self) -> bool {
+        self.get().steep_at_yield()
+    }
     fn moment(&self, power: u32, stress: f64) -> f64 {
         self.get().moment(power, stress)
     }
@@ -226,8 +234,8 @@ impl FlowCurve for Curve {
 ///
 /// u_j = Σ_{i<j} γ̇_i + ½γ̇_j + 2G(τ⁻_j − ½) + u_w,
 ///
-/// with γ̇_i the law at the stress of the cell's centre and u_w minus the slip where \[B3\] is used.
-/// Terms of order Mach² are left out: only BGK and TRT with a constant viscosity have none.
+/// with γ̇_i the law at the stress of the cell's centre and u_w the velocity that \[B3\] gives the wall
+/// ([`wall_velocity`]). Terms of order Mach² are left out: only BGK and TRT with a constant viscosity have none.
 ///
 /// # Source
 /// Derived here from \[K2\], \[L5\] and \[B1\]; for a Newtonian fluid it is the slip of Ginzburg &
@@ -246,10 +254,7 @@ fn scheme_solution(column: &Column) -> Result<Vec<f64>, VerifyError> {
     let force = column.force;
     let wall = match column.wall {
         WallRule::HalfWay => 0.0,
-        WallRule::ViscosityIndependent => {
-            let slope = exact.law.rate_slope(exact.stress(column.height(0)));
-            force * slope / 8.0 - 2.0 * force * odd[0]
-        }
+        WallRule::ViscosityIndependent => wall_velocity(column, &exact, odd[0]),
     };
     let half = column.n.div_ceil(2);
     let mut u = vec![0.0; column.n];
@@ -260,6 +265,29 @@ fn scheme_solution(column: &Column) -> Result<Vec<f64>, VerifyError> {
         sum += rates[j];
     }
     Ok(u)
+}
+
+/// The velocity that the law by stress \[B3\] gives a channel's wall, from the exact stresses: what the wall's half cell
+/// and the bulk's trapezoid rule miss, less what the odd relaxation adds; `odd`: τ⁻ − ½ of the wall cell.
+fn wall_velocity(column: &Column, exact: &Channel<Curve>, odd: f64) -> f64 {
+    let (law, f) = (&exact.law, column.force);
+    let rate = |s: f64| if s < 0.0 { -law.rate(-s) } else { law.rate(s) };
+    // Γ; even in the stress.
+    let integral = |s: f64| law.moment(0, s.abs());
+    let (at_wall, s) = (exact.wall_stress(), exact.stress(column.height(0)));
+    let even = if rate(s) > 0.0 { s / rate(s) } else { 1.0 / law.rate_slope(s) };
+    let carried = f * (3.0 / (8.0 * (3.0 * even))).min(2.0 * odd);
+    let half_cell = (integral(at_wall) - integral(s)) / f;
+    let missed = if law.steep_at_yield() {
+        half_cell - 0.5 * rate(s)
+    } else {
+        let (next, last) = (s - f, s - 2.0 * f);
+        let trapezoid = 0.5 * (rate(s) + rate(next));
+        let fluidity = if next == 0.0 { law.rate_slope(0.0) } else { rate(next) / next };
+        let beyond = (integral(s) - integral(next)) / f - trapezoid - (rate(next) - rate(last)) / 12.0;
+        half_cell - 0.5 * rate(s) + beyond + f * fluidity / 12.0
+    };
+    (missed - carried).max(0.0) + carried - 2.0 * odd * f
 }
 
 /// τ⁻ − ½ that goes with τ⁺ − ½ (infinite: rigid).

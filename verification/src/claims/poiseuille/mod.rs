@@ -41,7 +41,7 @@ pub static STUDY: Study = Study {
         yield_stress::FLOW_INDEX,
         yield_stress::FROM_REST,
         yield_stress::SCHEME,
-        yield_stress::WALL_NODE,
+        yield_stress::THESIS_CHANNEL,
         clamped::IMPLICIT_06,
         clamped::IMPLICIT_15,
         clamped::IMPLICIT_18,

@@ -118,9 +118,17 @@ pub const MUTANTS: &[Mutant] = &[
         id: "wall-slip-apparent-viscosity",
         erratum: "design [B3] as first written",
         description: "The wall's slip is computed with the apparent instead of the tangent viscosity.",
-        caught_by: "poiseuille-wall-node-error",
-        rung: Some(16.0),
+        caught_by: "poiseuille-scheme-closed-form",
+        rung: Some(5.0),
         subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ApparentViscosityAtWall))),
+    },
+    Mutant {
+        id: "wall-slip-explicit",
+        erratum: "design [B3] until it became a law by stress",
+        description: "The wall's slip follows the stress of its own cell: the wall cell alternates between two states.",
+        caught_by: "poiseuille-thesis-channel",
+        rung: Some(16.0),
+        subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ExplicitWallSlip))),
     },
 ];
 

@@ -4,7 +4,6 @@ use super::channel::{BINGHAM, Column, Plug, THESIS, steady_column, steady_from};
 use crate::claim::{
     Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
 };
-use lahar::collision::{CollisionChoice, OddRate};
 use lahar::rheology::Law;
 use lahar::setup::WallRule;
 use lahar::solver::run::Backend;
@@ -258,34 +257,50 @@ pub const SCHEME: Claim = Claim {
     },
 };
 
-/// The node next to the wall.
-pub const WALL_NODE: Claim = Claim {
-    id: "poiseuille-wall-node-error",
-    title: "The viscosity-independent wall uses the tangent viscosity",
-    tags: &["B3", "Y3"],
-    measures: "(u − u_exact)/u_max in the cell at the wall, Bingham, TRT Λ = 3/16, plug half of the channel",
-    reference: Reference {
-        source: "zero: the profile of a Bingham fluid is a parabola there",
-        uncertainty: 0.0,
-    },
+/// The thesis' channel at the settings that a scene gets.
+pub const THESIS_CHANNEL: Claim = Claim {
+    id: "poiseuille-thesis-channel",
+    title: "The thesis' channel has its speed on few cells, from three times the exact flow as well",
+    tags: &["B3", "Y3", "K3"],
+    measures: "largest |u_max/u_exact − 1| over both starts, in parts of what is allowed: 2.5, 1, 0.5, 0.2, 0.1 % at N = 8, 12, 16, 32, 64; \
+               n = 0.33, plug half of the channel, largest speed 0.1",
+    reference: EXACT,
     metric: Metric::Absolute,
-    ladder: Ladder { parameter: "N (cells across)", short: &[16.0, 32.0], full: &[16.0, 32.0, 64.0] },
+    ladder: Ladder {
+        parameter: "N (cells across)",
+        short: &[8.0, 12.0, 16.0],
+        full: &[8.0, 12.0, 16.0, 32.0, 64.0],
+    },
     order: None,
     tolerance: Tolerance {
-        value: 1e-9,
+        value: 1.0,
         at: Rung::Every,
-        basis: Basis::AfterSeeing,
-        because: "the steady state is reached to five times the last change, 1e-11, and the Mach term is u_max² = 1e-8 times \
-                  1.3e-2 (measured at ten times the speed); with the apparent viscosity \
-                  the error would be G/(16μ), 8e-3 of u_max at N = 16",
+        basis: Basis::Reference,
+        because: "the accuracy that was asked of the wall law; half-way walls are off by 12.6, 5.6, 3.2, 0.8 and 0.2 %",
     },
     kind: Kind::Verification,
     measure: |backend, n| {
-        let speed = 1e-4;
-        let collision = CollisionChoice::Trt(OddRate { floor: 0.05, ..OddRate::fixed(3.0 / 16.0) });
-        let column = Column { collision, ..Column::unit(n as usize, &BINGHAM, VISCOSITY, speed) };
-        let steady = steady_column(backend, &column, 1e-12)?;
-        let error = (steady.velocity(0)[0] - column.reference()?[0]) / speed;
-        Ok(Sample::absolute(n, error, 0.0))
+        let cells = n as usize;
+        // The step that the plan of a scene chooses: 0.1 cells per step at the speed of the plug, 1.993.
+        let column = Column::unit(cells, &THESIS, 0.4 * n / 16.0, 0.1);
+        let exact = column.exact()?.plug_velocity();
+        let mut worst = 0.0_f64;
+        let mut found = Vec::new();
+        for start in [1.0, 3.0] {
+            let steady = steady_from(backend, &column, &column.started(start)?, 1e-9)?;
+            let fastest = steady.velocity(0).into_iter().fold(0.0, f64::max);
+            worst = worst.max((fastest / exact - 1.0).abs());
+            found.push(fastest / exact - 1.0);
+        }
+        let allowed = match cells {
+            ..12 => 2.5e-2,
+            12..16 => 1e-2,
+            16..32 => 5e-3,
+            32..64 => 2e-3,
+            _ => 1e-3,
+        };
+        Ok(Sample::absolute(n, worst / allowed, 0.0)
+            .with("u_max/u_exact − 1", found[0])
+            .with("the same from three times the flow", found[1]))
     },
 };

@@ -46,7 +46,7 @@ impl Backend for SwappedBackend {
         match setup.collision {
             CollisionChoice::Trt(odd) => {
                 let laws = setup.fluids.iter().map(Law::prepare).collect();
-                let physics = Standard { laws, treatment: setup.yielding, collision: Swapped(odd) };
+                let physics = Standard::new(laws, setup.yielding, Swapped(odd));
                 Ok(Box::new(PlainRun::start(setup, physics)?))
             }
             CollisionChoice::Bgk | CollisionChoice::CentralMoment(_) | CollisionChoice::Regularised => {

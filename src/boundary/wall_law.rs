@@ -1,0 +1,202 @@
+//! The law by stress \[B3\]: the slip of a flat wall from the stress at the wall.
+
+use crate::lane::Lane;
+use crate::rheology::Flow;
+
+/// What the law by stress needs of a wall cell, along the driving force f = |(F − ∇p)_t|; lattice units.
+#[derive(Clone, Copy, Debug)]
+pub struct WallStress<L = f64> {
+    /// Shear stress σ_c of the cell on planes parallel to the wall.
+    pub cell: L,
+    /// Traction T that a half-way wall would take.
+    pub traction: L,
+    /// f > 0; cells without a driving force have no slip.
+    pub force: L,
+    /// Slip that the link correction takes away.
+    pub floor: L,
+    /// Share of the curvature that the odd departure carries, see [`super::wall_slip::local_curvature`].
+    pub local: L,
+    /// Density.
+    pub rho: L,
+    /// ω⁺ of the cell.
+    pub omega: L,
+    /// √(½ Q:Q) of the cell.
+    pub magnitude: L,
+}
+
+/// Stresses closer than this, relative to the largest, are averaged by two points instead of a difference of Γ: the
+/// difference would lose half its digits.
+const CLOSE: f64 = 1e-4;
+
+/// Half the distance of Gauss and Legendre's two points on an interval of length one.
+const TWO_POINTS: f64 = 0.288_675_134_594_812_87;
+
+/// Rounds of the root search: as many as halvings that leave nothing of a bracket; most cells need five.
+const ROUNDS: usize = 60;
+
+/// A root is found when a step is below this part of the bracket that the search began with. The last step is Newton's
+/// and leaves its square, or a halving and leaves itself: 1e-9 of the traction.
+const STEP: f64 = 1e-9;
+
+/// The slip u_s along the driving force.
+///
+/// For the wall stress s it solves s + (ρ/3) (S₁(s) + S₂ + m (s − σ_c − f/2) + u_f) = T, u_f the floor part; S₁ is what
+/// the integral of γ̇ over the half cell at the wall has more than the scheme's half step, S₂ what its trapezoid
+/// rule misses further in, m ≥ 0 how S₂ changes with the stress. Then
+/// u_s = 3 (T − s)/ρ − u_f, at least 0 and at most 3T/ρ: the wall never returns more than arrives.
+///
+/// # Arguments
+/// `wall`: the cell. `thickens`: whether the law does ([`crate::rheology::Rheology::thickens`]). `flow`: the law under
+/// a stress ≥ 0.
+/// # Returns
+/// u_s ≥ 0, lattice units; 0 where f or T is not positive.
+/// # Exactness
+/// Bit-stable: lanes that have found their root keep it.
+/// # Source
+/// docs/method.md \[B3\]; derived there.
+/// # Verified by
+/// Claims `poiseuille-herschel-bulkley-b3`, `poiseuille-bingham-b3`; mutant `wall-slip-explicit`.
+#[inline(always)]
+pub fn slip<L: Lane>(wall: &WallStress<L>, thickens: bool, flow: impl Fn(L) -> Flow<L>) -> L {
+    let zero = L::zero();
+    let third = L::splat(1.0 / 3.0) * wall.rho;
+    let driven = L::and(zero.less(wall.force), zero.less(wall.traction));
+    let one = L::one();
+    // Lanes at rest go through the motions with harmless numbers.
+    let f = L::select(driven, wall.force, one);
+    let t = L::select(driven, wall.traction, one);
+    let (ahead, slope) = beyond_the_cell(wall.cell, f, wall.local / wall.rho, thickens, &flow);
+    let linear = one + third * slope;
+    let aim = t + third * (slope * (wall.cell + L::splat(0.5) * f) - ahead - wall.floor);
+    let top = L::larger(aim / linear, zero);
+    // Up to the largest stress that can be the root nothing flows.
+    let rigid = L::and(flow(top).rate.less_equal(zero), wall.omega.less_equal(zero));
+    let active = L::and(driven, L::not(rigid));
+    if !L::any(active) {
+        return zero;
+    }
+    let scale = L::larger(wall.cell.abs(), t);
+    let half = HalfCell { f, close: (L::splat(0.5) * f).less_equal(L::splat(CLOSE) * scale), thickens, flow };
+    let start = wall.cell + L::splat(0.5) * f;
+    let s = half.root(active, [linear, third, aim], top, start);
+    let most = t / third;
+    let slip = L::smaller(L::larger((t - s) / third - wall.floor, zero), most);
+    L::select(active, slip, zero)
+}
+
+/// The law at a stress of either sign: γ̇ is odd, its slope and integral even.
+#[inline(always)]
+fn signed<L: Lane>(flow: &impl Fn(L) -> Flow<L>, s: L) -> Flow<L> {
+    let mut at = flow(s.abs());
+    at.rate = L::select(s.less(L::zero()), -at.rate, at.rate);
+    at
+}
+
+/// Mean of γ̇ between two stresses whose laws are given, `to` − `from` = `over` > 0; where `close`, by two points.
+#[inline(always)]
+fn mean<L: Lane>(
+    flow: &impl Fn(L) -> Flow<L>,
+    [from, to]: [L; 2],
+    [at_from, at_to]: [&Flow<L>; 2],
+    close: L::Mask,
+) -> L {
+    let over = to - from;
+    let mut mean = (at_to.integral - at_from.integral) / over;
+    if L::any(close) {
+        let (middle, part) = (L::splat(0.5) * (from + to), L::splat(TWO_POINTS) * over);
+        let points = signed(flow, middle - part).rate + signed(flow, middle + part).rate;
+        mean = L::select(close, L::splat(0.5) * points, mean);
+    }
+    mean
+}
+
+/// S₂ and m = max(0, dS₂/dσ_c).
+///
+/// The trapezoid rule that the bulk makes of γ̇ misses its integral between the wall cell and the next one, and further
+/// in by the Euler–Maclaurin term of what is left; the odd departure carries f κ/ρ already. A thickening law has no
+/// slope at rest to expand about: there the wall cell's own half step is taken off.
+#[inline(always)]
+fn beyond_the_cell<L: Lane>(
+    cell: L,
+    f: L,
+    carried: L,
+    thickens: bool,
+    flow: &impl Fn(L) -> Flow<L>,
+) -> (L, L) {
+    let (half, twelfth) = (L::splat(0.5), L::splat(1.0 / 12.0));
+    let own = signed(flow, cell);
+    if thickens {
+        return (-(half * own.rate) - f * carried, L::zero());
+    }
+    let (next, last) = (cell - f, cell - L::splat(2.0) * f);
+    let (second, third) = (signed(flow, next), signed(flow, last));
+    let close = f.less_equal(L::splat(CLOSE) * cell.abs());
+    let apart = mean(flow, [next, cell], [&second, &own], close);
+    let (fluidity, bend) = apparent(&second, next);
+    let (_, own_bend) = apparent(&own, cell);
+    let missed = (apart - half * (own.rate + second.rate)) - twelfth * (second.rate - third.rate);
+    let ahead = (missed + (twelfth * f) * fluidity) - f * carried;
+    let slope = ((own.rate - second.rate) / f - half * (own.slope + second.slope))
+        - twelfth * (second.slope - third.slope)
+        + (twelfth * f) * bend
+        - (L::splat(0.125) * f) * own_bend;
+    (ahead, L::larger(slope, L::zero()))
+}
+
+/// γ̇/σ and its slope; those of the law at rest at σ = 0.
+#[inline(always)]
+fn apparent<L: Lane>(at: &Flow<L>, s: L) -> (L, L) {
+    let rests = s.abs().less_equal(L::zero());
+    let safe = L::select(rests, L::one(), s);
+    let ratio = L::select(rests, at.slope, at.rate / safe);
+    (ratio, L::select(rests, L::zero(), (at.slope - ratio) / safe))
+}
+
+/// The half cell at the wall, where the stress rises by f/2.
+struct HalfCell<L: Lane, F> {
+    f: L,
+    close: L::Mask,
+    thickens: bool,
+    flow: F,
+}
+
+impl<L: Lane, F: Fn(L) -> Flow<L>> HalfCell<L, F> {
+    /// S₁(s) and its slope: half the mean of γ̇ over the half cell, less half of what it is in the middle of the cell.
+    #[inline(always)]
+    fn excess(&self, s: L) -> (L, L) {
+        let half = L::splat(0.5);
+        let below = s - half * self.f;
+        let (inner, wall) = (signed(&self.flow, below), signed(&self.flow, s));
+        let value = half * mean(&self.flow, [below, s], [&inner, &wall], self.close);
+        let slope = (wall.rate - inner.rate) / self.f;
+        if self.thickens { (value, slope) } else { (value - half * inner.rate, slope - half * inner.slope) }
+    }
+
+    /// The root s of linear·s + third·S₁(s) = aim in \[0, top\]: Newton's method, halving where it would leave the
+    /// bracket or has become slow.
+    #[inline(always)]
+    fn root(&self, active: L::Mask, [linear, third, aim]: [L; 3], top: L, start: L) -> L {
+        let half = L::splat(0.5);
+        let (mut low, mut high) = (L::zero(), top);
+        let mut s = L::smaller(L::larger(start, low), high);
+        let (mut last, mut moving) = (top, active);
+        for _ in 0..ROUNDS {
+            let (value, slope) = self.excess(s);
+            let off = (linear * s + third * value) - aim;
+            let above = L::zero().less(off);
+            high = L::select(above, s, high);
+            low = L::select(above, low, s);
+            let newton = s - off / (linear + third * slope);
+            let inside = L::and(low.less_equal(newton), newton.less_equal(high));
+            let quick = (newton - s).abs().less_equal(half * last.abs());
+            let next = L::select(L::and(inside, quick), newton, half * (low + high));
+            last = next - s;
+            s = L::select(moving, next, s);
+            moving = L::and(moving, (L::splat(STEP) * top).less(last.abs()));
+            if !L::any(moving) {
+                break;
+            }
+        }
+        s
+    }
+}
