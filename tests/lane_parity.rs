@@ -235,8 +235,12 @@ impl Kernel for SlipKernel {
                 magnitude: q,
             };
             out.push(newtonian_slip(&wall, omega));
-            let flow = |sigma| relaxation::flow(&self.0, self.1, slow.as_ref(), omega, sigma);
-            out.push(wall_law::slip(&wall, self.0.thickens(), flow));
+            let fluid = wall_law::Fluid::new(
+                self.0.thickens(),
+                |sigma| relaxation::flow(&self.0, self.1, slow.as_ref(), omega, sigma),
+                |omega: L| L::splat(0.2) * omega,
+            );
+            out.push(wall_law::slip(&wall, &fluid));
         }
         out
     }

@@ -109,12 +109,14 @@ impl<R: Rheology, C: Collision> Physics for Standard<R, C> {
             return wall_slip::newtonian_slip(wall, L::splat(3.0 / (tau - 0.5)) / wall.rho);
         }
         let slow = self.slow[usize::from(fluid)].as_ref();
-        wall_law::slip(
-            wall,
+        let fluid = wall_law::Fluid::new(
             law.thickens(),
             #[inline(always)]
             |sigma| relaxation::flow(law, self.treatment, slow, wall.omega, sigma),
-        )
+            #[inline(always)]
+            |omega| L::one() / self.collision.odd_omega(omega) - L::splat(0.5),
+        );
+        wall_law::slip(wall, &fluid)
     }
 
     #[inline(always)]

@@ -267,27 +267,31 @@ fn scheme_solution(column: &Column) -> Result<Vec<f64>, VerifyError> {
     Ok(u)
 }
 
-/// The velocity that the law by stress \[B3\] gives a channel's wall, from the exact stresses: what the wall's half cell
-/// and the bulk's trapezoid rule miss, less what the odd relaxation adds; `odd`: τ⁻ − ½ of the wall cell.
+/// The velocity that the law by stress \[B3\] gives a channel's wall, from the exact stresses: the integral of γ̇ over the
+/// first three and a half cells, less what the scheme makes of it, and further in by the Euler–Maclaurin term;
+/// `odd`: τ⁻ − ½ of the wall cell.
 fn wall_velocity(column: &Column, exact: &Channel<Curve>, odd: f64) -> f64 {
     let (law, f) = (&exact.law, column.force);
     let rate = |s: f64| if s < 0.0 { -law.rate(-s) } else { law.rate(s) };
     // Γ; even in the stress.
     let integral = |s: f64| law.moment(0, s.abs());
-    let (at_wall, s) = (exact.wall_stress(), exact.stress(column.height(0)));
-    let even = if rate(s) > 0.0 { s / rate(s) } else { 1.0 / law.rate_slope(s) };
-    let carried = f * (3.0 / (8.0 * (3.0 * even))).min(2.0 * odd);
-    let half_cell = (integral(at_wall) - integral(s)) / f;
-    let missed = if law.steep_at_yield() {
-        half_cell - 0.5 * rate(s)
-    } else {
-        let (next, last) = (s - f, s - 2.0 * f);
-        let trapezoid = 0.5 * (rate(s) + rate(next));
-        let fluidity = if next == 0.0 { law.rate_slope(0.0) } else { rate(next) / next };
-        let beyond = (integral(s) - integral(next)) / f - trapezoid - (rate(next) - rate(last)) / 12.0;
-        half_cell - 0.5 * rate(s) + beyond + f * fluidity / 12.0
-    };
-    (missed - carried).max(0.0) + carried - 2.0 * odd * f
+    let even = |s: f64| if rate(s) > 0.0 { s / rate(s) } else { 1.0 / law.rate_slope(s) };
+    let s = exact.stress(column.height(0));
+    let carried = f * (3.0 / (8.0 * (3.0 * even(s)))).min(2.0 * odd);
+    // Nodes of this half of the channel.
+    let nodes: Vec<f64> = (0..4).map(|k| s - f64::from(k) * f).collect();
+    let within: Vec<f64> = nodes.iter().copied().filter(|&s| s > 0.0).collect();
+    let last = within.last().copied().unwrap_or(s);
+    let mut missed = (integral(exact.wall_stress()) - integral(s)) / f - 0.5 * rate(s);
+    for &from in within.iter().take(3) {
+        let to = from - f;
+        missed += (integral(from) - integral(to)) / f - 0.5 * (rate(from) + rate(to));
+    }
+    if nodes[3] >= f {
+        missed += f * rate(nodes[3]) / nodes[3] / 12.0 - (rate(nodes[3]) - rate(nodes[3] - f)) / 12.0;
+    }
+    let far = odd_excess(&column.collision, 3.0 * even(last));
+    ((missed - carried) + 2.0 * f * (odd - far)).max(0.0) + carried - 2.0 * odd * f
 }
 
 /// τ⁻ − ½ that goes with τ⁺ − ½ (infinite: rigid).
