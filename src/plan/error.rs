@@ -98,6 +98,13 @@ pub enum PlanProblem {
          way out: a time step of at most {dt_max:.3e} s"
     )]
     TauTooLarge { tau: f64, dt: f64, limit: f64, operator: Operator, because: &'static str, dt_max: f64 },
+    /// Too few cells between walls.
+    #[error(
+        "found {cells} cells between walls\n  \
+         allowed: at least {least} for the {law}: fewer give fluxes that are off by more than 5 %, up to all of it [B3]\n  \
+         way out: a `domain.spacing_m` of at most {spacing:.3e} m"
+    )]
+    GapTooNarrow { cells: f64, least: f64, law: &'static str, spacing: f64 },
     /// Beyond the stability table.
     #[error(
         "found a speed of {speed:.4} cells per step with {operator} at a relaxation time of {tau:.4}\n  \

@@ -285,8 +285,8 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         each(self.pool.as_ref(), items, |(number, rim): (usize, &mut Vec<Rim>)| {
             let force_of = |local| self.force_of(number, local, force);
             let is_full = |local| self.is_full(number, local);
-            let is_fluid = |place| self.is_fluid(place);
-            correct(self.chosen, &task, &self.blocks[number], rim, &force_of, &is_full, &is_fluid);
+            let is_liquid = |place: Place| self.is_fluid(place) && self.is_full_at(place);
+            correct(self.chosen, &task, &self.blocks[number], rim, &force_of, &is_full, &is_liquid);
         });
         self.rim = rim;
     }
@@ -302,6 +302,13 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     /// Whether a cell is no interface cell.
     fn is_full(&self, number: usize, local: usize) -> bool {
         self.surface.as_ref().is_none_or(|surface| surface.kinds[number][local] != Kind::Interface)
+    }
+
+    fn is_full_at(&self, place: Place) -> bool {
+        match self.layout.block_at(place.block as usize) {
+            NONE => true,
+            number => self.is_full(number as usize, place.local as usize),
+        }
     }
 
     /// Whether a cell holds fluid.

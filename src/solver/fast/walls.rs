@@ -14,7 +14,8 @@ const GROUP: usize = 8;
 
 /// Corrections of the rim cells of a block: neighbours along the rim with the same walls side by side.
 /// `force(local)`: body force of a fluid cell, `None` if the cell holds no fluid; `is_full(local)`:
-/// whether it is no interface cell; `is_fluid(place)`: whether a neighbour holds fluid.
+/// whether it is no interface cell; `is_liquid(place)`: whether a neighbour is full of
+/// fluid: the densities of interface cells are those of the gas, not of a hydrostatic pressure.
 pub(crate) fn correct<P: Physics>(
     chosen: Chosen,
     task: &WallTask<P>,
@@ -22,7 +23,7 @@ pub(crate) fn correct<P: Physics>(
     rim: &mut [Rim],
     force: &impl Fn(usize) -> Option<[f64; 3]>,
     is_full: &impl Fn(usize) -> bool,
-    is_fluid: &impl Fn(Place) -> bool,
+    is_liquid: &impl Fn(Place) -> bool,
 ) {
     let mut columns = Columns::new();
     let mut group = [0; MOST];
@@ -33,7 +34,7 @@ pub(crate) fn correct<P: Physics>(
         while count < GROUP && at < rim.len() {
             let cell = &block.rim[at];
             if cell.walls != 0
-                && let Some(given) = given(task, cell, &rim[at], force, is_fluid)
+                && let Some(given) = given(task, cell, &rim[at], force, is_liquid)
             {
                 let wall = cell.flat.filter(|_| is_full(usize::from(cell.local)));
                 if count == 0 {
@@ -74,11 +75,11 @@ fn given<P>(
     cell: &RimCell,
     kept: &Rim,
     force: &impl Fn(usize) -> Option<[f64; 3]>,
-    is_fluid: &impl Fn(Place) -> bool,
+    is_liquid: &impl Fn(Place) -> bool,
 ) -> Option<Given> {
     let force = force(usize::from(cell.local))?;
     let density = |place: Option<Place>| {
-        let place = place.filter(|&place| is_fluid(place))?;
+        let place = place.filter(|&place| is_liquid(place))?;
         match task.layout.block_at(place.block as usize) {
             NONE => None,
             number => task.density[number as usize].get(place.local as usize).copied(),

@@ -47,8 +47,10 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 continue;
             }
             let force = self.force_at(at, force);
+            // Next to the surface the densities of interface cells are those of the gas, not of a hydrostatic pressure.
+            let is_liquid = |n| self.is_fluid(n) && !self.is_interface(n);
             let situation = cell::Situation {
-                residual: self.residual_force(at, &force),
+                residual: cell::residual_force(&self.f, &self.links, at, &force, is_liquid),
                 drag: record.drag,
                 fluid: self.fluid(at),
                 sourced: self.setup.stress_source,

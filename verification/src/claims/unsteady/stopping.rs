@@ -240,10 +240,11 @@ pub const TIME: Claim = claim(
     Ladder { parameter: "N (cells across)", short: &[16.0, 32.0, 64.0], full: &[16.0, 32.0, 64.0, 128.0] },
     Some(OrderBand { expected: 2.0, band: 0.5, at_least: true }),
     Tolerance {
-        value: 2e-4,
+        value: 2.5e-4,
         at: Rung::Last,
         basis: Basis::AfterSeeing,
-        because: "0.82/N^2 at N = 64: 1.1 times the scheme constant 0.75 seen on 16 cells",
+        because: "1.0/N^2 at N = 64; 0.86 was seen there with the law by stress, 0.48 on 16 cells (the rule before it: \
+                  0.50 and 0.75)",
     },
     stopping_time,
 );
