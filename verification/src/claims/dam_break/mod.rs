@@ -58,8 +58,8 @@ pub static STUDY: Study = Study {
          makes the toe unstable.",
         "The front is a staircase: a column is wetted when the cell before it has filled. Its place is uncertain by half \
          a cell, and layers thinner than a cell do not advance.",
-        "Below a free surface the viscosity-independent walls [B3] are unstable at a plastic tau near 0.506: the scenes \
-         of the mudflow use half-way walls. The plastic viscosity of 001 cannot be used as printed (ERRATA 11).",
+        "The scenes of the mudflow use half-way walls: the wall rule before the law by stress [B3] was unstable at their plastic \
+         tau near 0.506. The plastic viscosity of 001 cannot be used as printed (ERRATA 11).",
         "The first contact of the mudflow with its wall is a shock at the lattice's speed of sound, 339 to 136 kN by grid. \
          The peak is therefore a mean over half a second: 141, 125 and 125 kN on 0.33, 0.25 and 0.2 m. The speed of \
          the tongue at impact still falls with the spacing (7.8, 6.4, 5.7 m/s), so that k = 0.26 to 0.37 is not settled; \

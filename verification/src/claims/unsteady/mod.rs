@@ -79,9 +79,8 @@ pub static STUDY: Study = Study {
     limits: &[
         "Unyielded material is elastic with modulus rho c_s^2. A force switched on at once leaves an error of first \
          order in nu/(h c_s) = Ma/Re, and stopped material rings until the floor theta has damped it, at theta k^2/3.",
-        "The wall rule [B3] takes the stress gradient from the odd moments of the wall cell as far as the apparent \
-         viscosity goes, and the rest of the curvature of a yield-stress profile from F - grad p, which leaves out the \
-         inertia rho du/dt.",
+        "The law by stress [B3] takes the fall of the stress across the wall cell from F - grad p, which leaves out the inertia \
+         rho du/dt.",
         "On staircase walls whose steps are longer than one cell an unyielded layer still creeps, at about a quarter \
          of what half-way walls give: removing the mean of the correction, so that no mass passes the wall, removes \
          part of the correction itself.",
