@@ -15,7 +15,7 @@ pub struct WallStress<L = f64> {
     pub force: L,
     /// Slip that the link correction takes away.
     pub floor: L,
-    /// Share of the curvature that the odd departure carries, see [`super::wall_slip::local_curvature`].
+    /// κ: share of the curvature that the odd departure carries, min(3/(8(τ⁺ − ½)), 2(τ⁻ − ½)).
     pub local: L,
     /// Density.
     pub rho: L,
