@@ -36,7 +36,7 @@ pub enum Warning {
         tau: f64,
     },
     /// A narrow gap.
-    #[error("only {cells} cells between walls: the flux can be off by 8 %")]
+    #[error("only {cells} cells between walls: the flux can be off by 4 %")]
     FewCells {
         /// Cells between walls.
         cells: f64,
