@@ -176,6 +176,14 @@ fn build((faces, (surface, (extents, seed), laws, scheme)): Recipe) -> Setup {
     let mut setup = Setup::periodic(extents, laws[0]);
     let cells = setup.cells();
     setup.faces = faces;
+    for (axis, faces) in setup.faces.iter_mut().enumerate() {
+        for face in faces {
+            if let Face::Moving(velocity) = face {
+                // Faces slide in their plane.
+                velocity[axis] = 0.0;
+            }
+        }
+    }
     setup.collision = collision;
     setup.force = BodyForce::Constant(force);
     if half_way {

@@ -2,6 +2,8 @@
 
 pub mod bounce_back;
 pub mod flat_wall;
+pub(crate) mod hand_over;
 pub mod links;
+mod surface_graph;
 pub mod wall_law;
 pub mod wall_slip;

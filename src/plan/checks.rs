@@ -3,10 +3,12 @@
 use super::cells::{Cells, holds_a_cell};
 use super::error::PlanProblem;
 use super::memory::{least_bytes_per_cell, predict};
+use super::moving::{Leaving, first_leaving};
 use super::numbers::Numbers;
 use crate::scene::Scene;
 use crate::setup::{BodyForce, Setup, WallRule};
 use crate::solver::layout::Layout;
+use crate::units::Units;
 
 /// Largest Mach number; 0.5 is 0.29 cells per step, where the O(Ma²) errors are a quarter.
 const MACH_MAX: f64 = 0.5;
@@ -67,6 +69,20 @@ pub(super) fn shapes(scene: &Scene) -> Result<(), (String, PlanProblem)> {
         }
     }
     Ok(())
+}
+
+/// Moving solids must stay in their place.
+pub(super) fn moving_solids(
+    scene: &Scene,
+    setup: &Setup,
+    units: &Units,
+) -> Result<(), (String, PlanProblem)> {
+    let Some(Leaving { solid, at }) = first_leaving(setup) else { return Ok(()) };
+    let name = scene.solids[solid].name.clone();
+    let at_m = at.map(|x| x * units.dx_m);
+    let of = |u: [f64; 3]| u != [0.0; 3];
+    let key = if of(scene.solids[solid].spin_rad_per_s) { "spin_rad_per_s" } else { "velocity_m_per_s" };
+    Err((format!("solids[{solid}].{key}"), PlanProblem::SolidLeaves { name, at_m }))
 }
 
 pub(super) fn some_fluid(cells: &Cells) -> Result<(), PlanProblem> {

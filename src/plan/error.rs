@@ -24,6 +24,14 @@ pub enum PlanProblem {
          way out: a shape larger than the spacing of {spacing} m, or a finer spacing"
     )]
     NoCellCovered { name: String, spacing: f64 },
+    /// A moving solid that would not stay where it is.
+    #[error(
+        "`{name}` would leave its place: its motion carries its surface at ({:.6}, {:.6}, {:.6}) m out of it or into the          fluid, but cells of a solid stay where they are\n  \
+         allowed: solids that turn about their own axis (cylinders, spheres, rings) or slide along themselves (a belt \
+         through the whole box, along a periodic axis or from wall to wall) [B1]\n  \
+         way out: remove the motion (a gate that is opened: leave it out from the start), set `centre_m` on the axis, or \
+         move a part of the box with `moving_wall`", .at_m[0], .at_m[1], .at_m[2])]
+    SolidLeaves { name: String, at_m: [f64; 3] },
     /// A part of the initial fluid that is nowhere.
     #[error(
         "`{name}` fills no cell\n  \

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::coupled::added_bytes;
+use crate::boundary::hand_over::HandOver;
 pub(crate) use super::text::human;
 use crate::scene::{Scene, SurfaceGravity, YieldChoice};
 use crate::setup::{FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
@@ -122,6 +123,10 @@ pub(crate) fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
     };
     if !setup.solids.is_empty() {
         items.push(per_cell("solid numbers", Part::Walls, 1));
+    }
+    let handed = HandOver::bytes_of(setup);
+    if handed > 0 {
+        items.push(item("surfaces of moving solids", Part::Walls, handed));
     }
     if !setup.fluid_of_cell.is_empty() {
         items.push(per_cell("fluid numbers", Part::Walls, 1));

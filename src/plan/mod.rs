@@ -11,6 +11,7 @@ pub mod grains;
 mod initial;
 mod lower;
 pub mod memory;
+mod moving;
 mod nearest_flow;
 mod needs;
 mod numbers;
@@ -114,6 +115,7 @@ impl Plan {
             .transpose()?;
         checks::memory(scene, &setup, layout, available).map_err(|problem| at("domain", problem))?;
         checks::finite(&setup).map_err(|problem| at("fluid", problem))?;
+        checks::moving_solids(scene, &setup, &units).map_err(|(path, problem)| at(&path, problem))?;
         let basis = Basis { facts: &facts, units: &units, setup: &setup, scales: &scales, steps, gap, pool };
         let numbers = shown(&Given { basis, rule, fluid_cells, layout }, finished.as_ref());
         checks::numbers(&numbers, &setup).map_err(|problem| at(rule.path(), problem))?;

@@ -69,6 +69,14 @@ pub enum StartError {
         /// x, y or z.
         axis: char,
     },
+    /// A wall of the box that moves out of its plane.
+    #[error("axis {axis}: a face that moves has {found} cells per step along its normal; allowed: 0, it slides in its plane")]
+    FaceLeaves {
+        /// x, y or z.
+        axis: char,
+        /// The component of its velocity, lattice units.
+        found: f64,
+    },
     /// More cells than this build can index.
     #[error("{cells} cells are more than the {max} this solver can index")]
     TooManyCells {

@@ -1,5 +1,6 @@
 //! The ledger of mass and momentum \[F5\] and the loads on solids \[C7\], for any backend.
 
+use crate::boundary::hand_over::HandOver;
 use crate::boundary::links::Source;
 use crate::free_surface::ledger::{Sum, VectorSum};
 use crate::lattice::C;
@@ -154,6 +155,22 @@ impl CellEntries {
     }
 }
 
+/// Σ A q: mass that an interface cell hands to its neighbours along the surfaces of moving solids \[B1\].
+///
+/// # Arguments
+/// `share`: A of the link to a cell \[F1\].
+/// # Exactness
+/// The sum does not depend on the order of its terms; A q is what the neighbour adds with the other sign.
+pub(crate) fn mass_handed(hand_over: &HandOver, cell: usize, share: impl Fn(usize) -> f64) -> f64 {
+    let mut sum = Sum::default();
+    for record in hand_over.of(cell) {
+        for edge in hand_over.edges(record) {
+            sum.add(share(edge.cell as usize) * edge.flux);
+        }
+    }
+    sum.value()
+}
+
 #[inline(always)]
 fn add(sum: &mut [f64; 3], term: &[f64; 3]) {
     for a in 0..3 {
@@ -217,7 +234,7 @@ impl Books {
     /// Mass gained or lost since the last closing, and the bound of rounding; `None` if within it.
     /// `rounding`: largest relative error of a stored population.
     pub(crate) fn close(&mut self, mass: f64, fluid_cells: u64, rounding: f64) -> Option<(f64, f64)> {
-        let external = (self.from_walls.value() - self.outflow.value()) + self.mass_from_grains.value();
+        let external = self.mass_from_grains.value() - self.outflow.value();
         let before = self.mass;
         self.mass = mass - external;
         let residual = (mass - external - before).abs();
@@ -255,8 +272,7 @@ impl Books {
             parked,
             outflow,
             from_walls,
-            mass_residual: ((((mass - self.initial_mass) + outflow) - from_walls) - mass_from_grains)
-                / self.initial_mass,
+            mass_residual: (((mass - self.initial_mass) + outflow) - mass_from_grains) / self.initial_mass,
             momentum,
             from_force: parts[0],
             from_faces: parts[1],

@@ -21,6 +21,14 @@ pub(crate) fn check(setup: &Setup) -> Result<(), StartError> {
         if (faces[0] == Face::Periodic) != (faces[1] == Face::Periodic) {
             return Err(StartError::HalfPeriodic { axis });
         }
+        let index = usize::from(axis as u8 - b'x');
+        for face in faces {
+            if let Face::Moving(velocity) = face
+                && velocity[index] != 0.0
+            {
+                return Err(StartError::FaceLeaves { axis, found: velocity[index] });
+            }
+        }
         if faces.contains(&Face::Open) && setup.free_surface.is_none() {
             return Err(StartError::OpenWithoutSurface { axis });
         }

@@ -113,9 +113,9 @@ pub struct Ledger {
     pub parked: f64,
     /// Mass that left through open faces.
     pub outflow: f64,
-    /// Mass that came in at moving walls (rounding, or a wall that moves along its normal).
+    /// Mass that came in at walls: rounding, part of `mass_residual`.
     pub from_walls: f64,
-    /// (mass + outflow − from_walls − mass_from_grains − initial)/initial.
+    /// (mass + outflow − mass_from_grains − initial)/initial.
     pub mass_residual: f64,
     /// Momentum Σ c f of all fluid cells now, populations f − w.
     pub momentum: [f64; 3],

@@ -2,12 +2,13 @@
 
 use super::block::Link;
 use super::element::{Element, index};
+use super::hand_over::raise;
 use super::rim::Rim;
 use super::task::Task;
 use crate::free_surface::exchange::gas_link;
 use crate::lattice::equilibrium::dot;
 use crate::lattice::moments::density_excess;
-use crate::lattice::{Q, opposite};
+use crate::lattice::{Q, W, opposite};
 use crate::solver::physics::Physics;
 
 /// Populations of a cell after the last collision.
@@ -28,7 +29,8 @@ pub(crate) fn density_at_wall<P, E: Element>(
     if *velocity == [0.0; 3] { 1.0 } else { 1.0 + density_excess(&after(task, number, local)) }
 }
 
-/// What a wall sends back along a link \[B1\] \[B3\], as it is stored.
+/// What a wall sends back along a link \[B1\] \[B3\], as it is stored; `body` as in
+/// [`Source::Wall`](crate::boundary::links::Source::Wall).
 #[inline]
 pub(crate) fn wall_link<P: Physics, E: Element>(
     task: &Task<P, E>,
@@ -37,11 +39,16 @@ pub(crate) fn wall_link<P: Physics, E: Element>(
     link: &Link,
     rho: f64,
     velocity: &[f64; 3],
+    body: u8,
 ) -> f64 {
     let out = opposite(usize::from(link.direction));
     let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
     let correction = rim.get(usize::from(link.rim)).map_or(0.0, |kept| kept.correction[out]);
-    stored::<E>(task.physics.wall(leaving - correction, out, rho, velocity))
+    let back = task.physics.wall(leaving - correction, out, rho, velocity);
+    stored::<E>(match raise(task, number, usize::from(link.local), body) {
+        None => back,
+        Some(raise) => back + W[out] * raise,
+    })
 }
 
 /// What is left of a number when it is stored: the ledger books what the cell gets.

@@ -4,6 +4,7 @@ pub(crate) mod around;
 pub(crate) mod block;
 pub(crate) mod element;
 mod grains;
+mod hand_over;
 pub mod instructions;
 pub(crate) mod kernel;
 pub(crate) mod layout;

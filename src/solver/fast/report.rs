@@ -178,6 +178,7 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
             + (rim + numbers + marks) as u64
             + blocks
             + self.layout.bytes()
+            + self.hand_over.bytes()
             + sources
             + surface
             + grains

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::block::{Block, Origin, Place, Velocities, numbers_around, put};
+use super::block::{Block, Link, Origin, Place, Velocities, numbers_around, put};
 use super::element::{Aligned, Element, index};
 use super::instructions::{Chosen, Passes};
 use super::layout::{Layout, NONE};
@@ -13,6 +13,7 @@ use super::rim::{Rim, WallTask};
 use super::sources::Sources;
 use super::stores;
 use super::surface::state::Surface;
+use crate::boundary::hand_over::HandOver;
 use super::task::{Outcome, Own, Task};
 use super::walls::correct;
 use crate::coupling::Immersed;
@@ -39,6 +40,8 @@ pub struct FastRun<P, E: Element = f64> {
     pub(super) sources: Vec<Sources>,
     pub(super) velocities: Velocities,
     pub(super) blocks: Vec<Block>,
+    /// What moving solids made of stairs hand along their surfaces \[B1\].
+    pub(super) hand_over: HandOver,
     /// Populations after the last collision; before the first one at step 0.
     pub(super) old: Vec<Aligned<E>>,
     /// Where the next collision puts its result.
@@ -89,6 +92,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             layout,
             velocities: Velocities::default(),
             blocks: Vec::new(),
+            hand_over: HandOver::new(setup),
             old: Vec::new(),
             new: Vec::new(),
             rim: Vec::new(),
@@ -187,6 +191,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             force,
             step: self.step,
             velocities: &self.velocities.list,
+            hand_over: &self.hand_over,
             past_cache: self.population_bytes() > CACHED,
             surface: self.surface.as_ref().map(Surface::view),
         }
@@ -351,15 +356,26 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                     let number = self.layout.block_at(cell.block as usize) as usize;
                     self.old[number].get()[index::<E>(cell.local as usize, usize::from(direction))].to_f64()
                 }
-                Origin::Wall { velocity, .. } => {
+                // With a surface the kinds of cells may have changed since.
+                Origin::Wall { .. } if self.surface.is_some() => self.returned(number, local, i),
+                Origin::Wall { velocity, body } => {
                     let u = &self.velocities.list[velocity as usize];
                     let rho = 1.0 + density_excess(&own);
-                    wall_link(&task, number, &self.rim[number], link, rho, u)
+                    wall_link(&task, number, &self.rim[number], link, rho, u, body)
                 }
                 Origin::Open => open_link(&task, number, &self.rim[number], link),
             };
         }
         f
+    }
+
+    /// What a wall sent back to a liquid cell in the last step with a surface.
+    fn returned(&self, number: usize, local: usize, i: usize) -> f64 {
+        let links = &self.blocks[number].links;
+        let key = |link: &Link| (usize::from(link.local), usize::from(link.direction));
+        let place = links.binary_search_by_key(&(local, i), key);
+        let returned = self.surface.as_ref().map(|surface| &surface.returned[number]);
+        place.ok().zip(returned).map_or(0.0, |(place, returned)| returned[place])
     }
 
     pub(super) fn run(&mut self, steps: u64) -> Result<(), Stopped> {

@@ -154,10 +154,10 @@ impl<E: Element> Stage<E> {
                 Origin::Wall { .. } | Origin::Open if returned.is_some() => {
                     E::from_f64(returned.map_or(0.0, |values| values[place]))
                 }
-                Origin::Wall { velocity, .. } => {
+                Origin::Wall { velocity, body } => {
                     let u = &task.velocities[velocity as usize];
                     let rho = density_at_wall(task, own.number, at, u);
-                    E::from_f64(wall_link(task, own.number, own.rim, link, rho, u))
+                    E::from_f64(wall_link(task, own.number, own.rim, link, rho, u, body))
                 }
                 Origin::Open => E::from_f64(open_link(task, own.number, own.rim, link)),
             };

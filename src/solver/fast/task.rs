@@ -7,6 +7,7 @@ use super::layout::Layout;
 use super::rim::Rim;
 use super::sources::Sources;
 use super::surface::record::{InterfaceCell, SurfaceView};
+use crate::boundary::hand_over::HandOver;
 use crate::setup::Setup;
 use crate::solver::run::Stopped;
 
@@ -32,6 +33,8 @@ pub(crate) struct Task<'a, P, E> {
     pub step: u64,
     /// Wall velocities by number.
     pub velocities: &'a [[f64; 3]],
+    /// What moving solids hand along their surfaces.
+    pub hand_over: &'a HandOver,
     /// Whether stores go past the cache.
     pub past_cache: bool,
     /// Free surface, if any.

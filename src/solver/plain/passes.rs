@@ -2,11 +2,12 @@
 
 use super::run::{CHUNK, PlainRun};
 use super::surface::SurfacePhysics;
+use crate::boundary::hand_over::Record;
 use crate::boundary::links::{CellKind, Source};
 use crate::free_surface::Kind;
 use crate::free_surface::ledger::VectorSum;
 use crate::lattice::moments::density_excess;
-use crate::lattice::{Q, opposite};
+use crate::lattice::{Q, W, opposite};
 use crate::solver::cell::{self, Cell};
 use crate::solver::physics::Physics;
 use crate::solver::pool::each;
@@ -170,6 +171,14 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         }
     }
 
+    /// Mass that a boundary cell of a moving solid hands to its wet neighbours \[B1\].
+    fn given(&self, record: &Record) -> f64 {
+        match &self.surface {
+            None => record.all(),
+            Some(surface) => self.hand_over.given(record, |cell| surface.kinds[cell].is_fluid()),
+        }
+    }
+
     /// Streaming into a cell that touches a wall, a solid, a mirror plane or gas \[B1\]–\[B3\] \[F2\].
     #[inline(never)]
     fn gather_links(&self, cell: usize, at: [usize; 3], correction: Option<&Cell>) -> Cell {
@@ -180,8 +189,12 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 return own[0];
             }
             match self.links.source_at(cell, at, i) {
-                Source::Wall { velocity, .. } => {
-                    cell::wall_link(&self.physics, own, correction, i, rho, &velocity)
+                Source::Wall { velocity, body } => {
+                    let back = cell::wall_link(&self.physics, own, correction, i, rho, &velocity);
+                    match self.hand_over.at(cell, body) {
+                        None => back,
+                        Some(record) => back + W[i] * record.raise(rho, self.given(record)),
+                    }
                 }
                 Source::Open => self.open_link(cell, i),
                 Source::Cell { cell: from, direction } => {

@@ -127,6 +127,6 @@ impl<P: Physics, S: SurfacePhysics> Run for PlainRun<P, S> {
         let marks = self.setup.solids.len() + self.setup.fluid_of_cell.len();
         let surface = self.surface.as_ref().map_or(0, |surface| surface.bytes());
         let grains = self.grains.as_ref().map_or(0, |grains| grains.bytes());
-        (populations + lag + marks) as u64 + self.links.bytes() + surface + grains
+        (populations + lag + marks) as u64 + self.links.bytes() + self.hand_over.bytes() + surface + grains
     }
 }

@@ -2,6 +2,7 @@
 
 use super::surface::cells::Wet;
 use super::surface::{Design, Surface, SurfacePhysics};
+use crate::boundary::hand_over::HandOver;
 use crate::boundary::links::{CellKind, Links};
 use crate::coupling::Immersed;
 use crate::lattice::Q;
@@ -20,6 +21,8 @@ pub struct PlainRun<P, S = Design> {
     pub(super) setup: Setup,
     pub(super) physics: P,
     pub(super) links: Links,
+    /// What moving solids made of stairs hand along their surfaces \[B1\].
+    pub(super) hand_over: HandOver,
     /// Populations before collision, f − w; zero where there is no fluid.
     pub(super) f: Vec<Cell>,
     /// Populations after collision.
@@ -72,6 +75,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             setup: setup.clone(),
             physics,
             links,
+            hand_over: HandOver::new(setup),
             f: vec![[0.0; Q]; cells],
             post: vec![[0.0; Q]; cells],
             previous_omega: if lagged {
@@ -170,6 +174,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             setup: &self.setup,
             physics: &self.physics,
             links: &self.links,
+            hand_over: &self.hand_over,
             f: &mut self.f,
             post: &mut self.post,
             previous_omega: &mut self.previous_omega,

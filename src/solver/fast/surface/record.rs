@@ -1,5 +1,6 @@
 //! What is kept of interface cells, and what passes read of it.
 
+use crate::free_surface::Kind;
 use crate::free_surface::force::interface_force;
 use crate::lattice::Q;
 use crate::setup::SurfaceForce;
@@ -37,6 +38,8 @@ pub(crate) struct Lanes {
 /// What the passes read of the surface.
 #[derive(Clone, Copy)]
 pub(crate) struct SurfaceView<'a> {
+    /// By block and cell.
+    pub kinds: &'a [Vec<Kind>],
     /// By block and pack.
     pub lanes: &'a [Vec<Lanes>],
     /// φ of interface cells, by block and cell.

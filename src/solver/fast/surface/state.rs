@@ -70,7 +70,13 @@ impl Surface {
     /// What the passes read.
     #[must_use]
     pub(crate) fn view(&self) -> SurfaceView<'_> {
-        SurfaceView { lanes: &self.lanes, fill: &self.fill, returned: &self.returned, rule: self.rules.force }
+        SurfaceView {
+            kinds: &self.kinds,
+            lanes: &self.lanes,
+            fill: &self.fill,
+            returned: &self.returned,
+            rule: self.rules.force,
+        }
     }
 
     /// Body force of a cell \[F3\]; `None` where it holds no fluid.

@@ -11,6 +11,7 @@ use crate::lattice::{Q, opposite};
 use crate::solver::books::{CellEntries, Crossing, Entries};
 use crate::solver::fast::block::{Block, Link, Origin};
 use crate::solver::fast::element::{Element, index};
+use crate::solver::fast::hand_over;
 use crate::solver::fast::layout::NONE;
 use crate::solver::fast::links::{after, density_at_wall, open_link, wall_link};
 use crate::solver::fast::rim::Rim;
@@ -50,7 +51,7 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                 End::Wall { velocity, body, link } => {
                     touches |= touch::WALL;
                     let u = &self.task.velocities[velocity as usize];
-                    arrived[i] = wall_link(self.task, self.number, self.rim, link, rho, u);
+                    arrived[i] = wall_link(self.task, self.number, self.rim, link, rho, u, body);
                     Source::Wall { velocity: *u, body }
                 }
                 End::Open(link) => {
@@ -87,8 +88,17 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         booked.close(entries);
         cell.f = arrived;
         cell.rho = 1.0 + density_excess(&arrived);
-        cell.mass += density_excess(&gained);
+        let handed = self.handed(local, fill);
+        entries.from_walls.add(-handed);
+        cell.mass += density_excess(&gained) - handed;
         cell.touches = touches;
+    }
+
+    /// Mass that an interface cell hands along the surfaces of moving solids \[B1\].
+    fn handed(&self, local: usize, fill: f64) -> f64 {
+        hand_over::handed(self.task, self.number, local, |number, there| {
+            wetted_share(self.surface.kinds[number][there], fill, self.surface.fill[number][there])
+        })
     }
 
     /// Kind of a cell; gas where there is no block.
@@ -157,7 +167,7 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                 End::Wall { velocity, body, link } => {
                     let u = &self.task.velocities[velocity as usize];
                     let rho = density_at_wall(self.task, self.number, local, u);
-                    let arrived = wall_link(self.task, self.number, self.rim, link, rho, u);
+                    let arrived = wall_link(self.task, self.number, self.rim, link, rho, u, body);
                     (arrived, Source::Wall { velocity: *u, body })
                 }
                 End::Open(link) => (open_link(self.task, self.number, self.rim, link), Source::Open),

@@ -76,6 +76,9 @@ impl<P: Physics, S: SurfacePhysics> Wet<'_, P, S> {
                 own.link(&crossing, &source, gas, &mut entries);
             }
             own.close(&mut entries);
+            if !liquid {
+                entries.from_walls.add(-surface.handed(self.hand_over, cell));
+            }
         }
         entries
     }

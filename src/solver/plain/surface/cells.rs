@@ -2,6 +2,7 @@
 //! ([`crate::coupling::Host`]).
 
 use super::{Surface, SurfacePhysics};
+use crate::boundary::hand_over::HandOver;
 use crate::boundary::links::{Links, Source};
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::Cells;
@@ -16,6 +17,7 @@ pub(in crate::solver::plain) struct Wet<'a, P, S> {
     pub(in crate::solver::plain) setup: &'a Setup,
     pub(in crate::solver::plain) physics: &'a P,
     pub(in crate::solver::plain) links: &'a Links,
+    pub(in crate::solver::plain) hand_over: &'a HandOver,
     pub(in crate::solver::plain) f: &'a mut [Cell],
     pub(in crate::solver::plain) post: &'a mut [Cell],
     pub(in crate::solver::plain) previous_omega: &'a mut [f64],

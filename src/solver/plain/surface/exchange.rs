@@ -1,13 +1,15 @@
 //! Mass exchange of interface cells \[F1\], and what gas and open faces send back \[F2\].
 
 use super::{Collided, Surface, SurfaceLink, SurfacePhysics};
+use crate::boundary::hand_over::HandOver;
 use crate::boundary::links::Source;
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::touch;
-use crate::free_surface::exchange::gas_link;
+use crate::free_surface::exchange::{gas_link, wetted_share};
 use crate::lattice::equilibrium::dot;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, opposite};
+use crate::solver::books::mass_handed;
 use crate::solver::cell::Cell;
 use crate::solver::physics::Physics;
 use crate::solver::plain::passes::chunks;
@@ -81,7 +83,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 }
             }
         }
-        (density_excess(&gained), touches)
+        (density_excess(&gained) - surface.handed(&self.hand_over, cell), touches)
     }
 
     /// What an open face sends back in direction `i`: as gas where fluid leaves, as a wall at rest where
@@ -104,6 +106,15 @@ impl<S: SurfacePhysics> Surface<S> {
     #[inline]
     pub(in crate::solver::plain) fn is_gas_link(&self, cell: usize, from: usize) -> bool {
         self.kinds[cell] == Kind::Interface && self.kinds[from] == Kind::Gas
+    }
+
+    /// Mass that an interface cell hands along the surfaces of moving solids \[B1\].
+    pub(super) fn handed(&self, hand_over: &HandOver, cell: usize) -> f64 {
+        if hand_over.is_empty() {
+            return 0.0;
+        }
+        let share = |there: usize| wetted_share(self.kinds[there], self.fill[cell], self.fill[there]);
+        mass_handed(hand_over, cell, share)
     }
 
     /// What the gas sends back to a cell along −c_out; `after`: populations after collision.
