@@ -26,7 +26,8 @@ pub enum PlanProblem {
     NoCellCovered { name: String, spacing: f64 },
     /// A moving solid that would not stay where it is.
     #[error(
-        "`{name}` would leave its place: its motion carries its surface at ({:.6}, {:.6}, {:.6}) m out of it or into the          fluid, but cells of a solid stay where they are\n  \
+        "`{name}` would leave its place: its motion carries its surface at ({:.6}, {:.6}, {:.6}) m out of it or into the \
+         fluid, but cells of a solid stay where they are\n  \
          allowed: solids that turn about their own axis (cylinders, spheres, rings) or slide along themselves (a belt \
          through the whole box, along a periodic axis or from wall to wall) [B1]\n  \
          way out: remove the motion (a gate that is opened: leave it out from the start), set `centre_m` on the axis, or \

@@ -13,6 +13,7 @@ mod pool;
 pub(super) mod support;
 mod symmetry;
 mod tilted;
+mod turning;
 
 /// The study.
 pub static STUDY: Study = Study {
@@ -46,6 +47,8 @@ pub static STUDY: Study = Study {
         symmetry::HALF,
         loads::BUOYANCY,
         loads::WALL,
+        turning::ROLLER,
+        turning::BUCKET,
     ],
     exhibits: &[tilted::OPTIONS, heap::MINUTE],
     mutants: &[

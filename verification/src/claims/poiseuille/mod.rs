@@ -8,6 +8,7 @@ mod ducts_pipes;
 mod mutants;
 mod newtonian;
 mod thesis_figures;
+mod turning;
 mod work_precision;
 mod yield_stress;
 
@@ -56,6 +57,7 @@ pub static STUDY: Study = Study {
         couette::ALL_LAWS,
         couette::SHEAR_RATE,
         couette::TAYLOR,
+        turning::RING,
         density::SI_DENSITY,
         density::UNIFORM_ACCELERATION,
         ducts_pipes::SQUARE_DUCT,
