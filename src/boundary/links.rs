@@ -28,6 +28,18 @@ pub enum Source {
     Open,
 }
 
+impl Source {
+    /// Number of the solid that bounces back, if it is one.
+    #[inline]
+    #[must_use]
+    pub(crate) const fn body(&self) -> Option<u8> {
+        match *self {
+            Self::Wall { body, .. } if body != 0 => Some(body),
+            _ => None,
+        }
+    }
+}
+
 /// A cell that touches a wall, a solid or a mirror plane.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct BoundaryCell {

@@ -107,6 +107,15 @@ pub enum Measure {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         on: Option<Target>,
     },
+    /// Torque of the fluid on a solid, N m, by momentum exchange; of the last step, and the pressure of the air counts as
+    /// 0 as in `force`.
+    Torque {
+        /// Name of a solid in the fluid.
+        solid: String,
+        /// The point it is about, m; the solid's centre of rotation when not given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        about_m: Option<[f64; 3]>,
+    },
     /// Mass, kg, and what became of it: relative residual of the ledger, outflow and parked excess, kg,
     /// momentum residual, N s, and the number of cells that changed kind.
     Ledger,
@@ -203,7 +212,7 @@ pub(crate) enum Needs {
     Fluid,
     /// A fluid with a free surface.
     Surface,
-    /// A fluid whose forces and mass are booked: with a free surface or with grains.
+    /// A fluid whose mass is booked: with a free surface or with grains.
     Books,
     /// Grains.
     Grains,
@@ -222,11 +231,13 @@ impl Measure {
             | Self::PlugFraction
             | Self::YieldedFraction
             | Self::FlowRate { .. }
-            | Self::WindowVelocity { .. } => Needs::Fluid,
+            | Self::WindowVelocity { .. }
+            | Self::Force { on: None, .. }
+            | Self::Torque { .. } => Needs::Fluid,
             Self::Volume | Self::Front { .. } | Self::SurfaceProfile { .. } | Self::DepthMap { .. } => {
                 Needs::Surface
             }
-            Self::Ledger | Self::Force { on: None, .. } => Needs::Books,
+            Self::Ledger => Needs::Books,
             Self::KineticEnergy | Self::MaxSpeed | Self::Mass => match subject {
                 Subject::Fluid => Needs::Fluid,
                 Subject::Grains => Needs::Grains,
@@ -260,6 +271,7 @@ impl Measure {
     pub(crate) fn loaded_solid(&self) -> Option<&str> {
         match self {
             Self::Force { solid, .. } => solid.as_deref(),
+            Self::Torque { solid, .. } => Some(solid),
             _ => None,
         }
     }

@@ -4,6 +4,7 @@ use crate::boundary::hand_over::HandOver;
 use crate::boundary::links::Source;
 use crate::free_surface::ledger::{Sum, VectorSum};
 use crate::lattice::C;
+use crate::solver::loads::{LoadSums, Pull};
 use crate::solver::run::{Ledger, Load};
 
 /// Everything that was brought in or taken out so far.
@@ -60,8 +61,8 @@ pub(crate) struct Entries {
     pub from_solids: VectorSum,
     /// As in [`Books`].
     pub from_gas: VectorSum,
-    /// Force and wetted area by solid.
-    pub loads: Vec<(VectorSum, [[Sum; 2]; 3])>,
+    /// Force, torque and wetted area by solid.
+    pub loads: Vec<LoadSums>,
 }
 
 /// The two ends of a link at a cell.
@@ -77,6 +78,8 @@ pub(crate) struct Crossing {
     pub share: f64,
     /// Whether the cell is liquid.
     pub liquid: bool,
+    /// Middle of the link less the centre of the solid that it leads to, for its torque; any number elsewhere.
+    pub arm: [f64; 3],
 }
 
 /// What the links of one cell brought in, added up in the order of the directions.
@@ -94,7 +97,7 @@ impl CellEntries {
     /// Books one link. `gas`: whether the cell at the other end holds no fluid.
     #[inline]
     pub(crate) fn link(&mut self, crossing: &Crossing, source: &Source, gas: bool, entries: &mut Entries) {
-        let Crossing { i, leaving, arrived, share, liquid } = *crossing;
+        let Crossing { i, leaving, arrived, share, liquid, arm } = *crossing;
         // Arrives with c_i f_i, left with −c_i f_ī.
         let brought = C[i].map(|c| f64::from(c) * (arrived + leaving));
         match *source {
@@ -125,7 +128,7 @@ impl CellEntries {
                 } else {
                     add(&mut self.from_solids, &brought);
                     if let Some(load) = entries.loads.get_mut(usize::from(body) - 1) {
-                        add_load(load, &brought, i, share);
+                        load.add(&Pull { i, brought, share, arm });
                     }
                 }
             }
@@ -178,17 +181,6 @@ fn add(sum: &mut [f64; 3], term: &[f64; 3]) {
     }
 }
 
-/// Adds one link to a load: the solid gets what the fluid loses.
-fn add_load(load: &mut (VectorSum, [[Sum; 2]; 3]), brought: &[f64; 3], i: usize, share: f64) {
-    load.0.add(&brought.map(|p| -p));
-    // The wall lies along −c_i; axis links are the cell faces.
-    let length: i32 = C[i].iter().map(|c| c * c).sum();
-    if length == 1 {
-        let axis = C[i].iter().position(|&c| c != 0).unwrap_or(0);
-        load.1[axis][usize::from(C[i][axis] > 0)].add(share);
-    }
-}
-
 impl Entries {
     /// None yet, for this number of recorded solids.
     #[must_use]
@@ -204,12 +196,7 @@ impl Entries {
         self.from_solids.merge(&other.from_solids);
         self.from_gas.merge(&other.from_gas);
         for (own, other) in self.loads.iter_mut().zip(&other.loads) {
-            own.0.merge(&other.0);
-            for axis in 0..3 {
-                for side in 0..2 {
-                    own.1[axis][side].merge(&other.1[axis][side]);
-                }
-            }
+            own.merge(other);
         }
     }
 }
@@ -222,12 +209,8 @@ impl Books {
         self.from_faces.merge(&entries.from_faces);
         self.from_solids.merge(&entries.from_solids);
         self.from_gas.merge(&entries.from_gas);
-        for (load, (force, wetted)) in loads.iter_mut().zip(&entries.loads) {
-            load.force = force.value();
-            load.wetted = wetted.map(|sides| sides.map(|sum| sum.value()));
-            for a in 0..3 {
-                load.impulse[a] += load.force[a];
-            }
+        for (load, sums) in loads.iter_mut().zip(&entries.loads) {
+            sums.enter(load);
         }
     }
 

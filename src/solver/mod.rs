@@ -9,6 +9,7 @@ pub(crate) mod compiled;
 pub mod fast;
 pub mod initial;
 pub(crate) mod layout;
+pub(crate) mod loads;
 pub(crate) mod observe;
 pub mod physics;
 pub mod plain;

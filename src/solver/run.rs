@@ -149,6 +149,8 @@ pub struct Ledger {
 pub struct Load {
     /// Force during the last step.
     pub force: [f64; 3],
+    /// Torque during the last step about [`crate::setup::SolidMotion::centre`].
+    pub torque: [f64; 3],
     /// Sum of the force over all steps.
     pub impulse: [f64; 3],
     /// Wetted area by face: `wetted[axis][0]` is the area whose fluid lies on the low side of the solid.

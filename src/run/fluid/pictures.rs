@@ -54,6 +54,9 @@ impl Plots<'_> {
 
     /// A plot per column of a probe; of a force one for each of its parts.
     fn columns(&self, probe: &Probe, columns: Range<usize>) -> Result<(), OutputError> {
+        if let Measure::Torque { .. } = probe.measure {
+            return self.series_plot(&format!("torque_{}", probe.name), columns);
+        }
         if probe.measure.loaded_solid().is_none() {
             for column in columns {
                 let name = format!("series_{}", self.recorder.series().columns[column].name);

@@ -8,6 +8,7 @@ use crate::scene::Scene;
 use crate::setup::Setup;
 use crate::solver::run::{Fields, Load, Run};
 use crate::units::Units;
+use crate::vector::{cross, sub};
 
 /// What stays the same about the fluid of a run.
 pub(in crate::run) struct Frame {
@@ -168,11 +169,28 @@ impl Fluid<'_> {
         row
     }
 
-    /// Force, impulse, and wetted area by axis and side of a solid: `area_x_low` has its fluid at smaller x.
-    pub fn load(&self, solid: &str) -> Vec<Quantity> {
+    /// Centre of a solid, cells, and the load on it.
+    fn load_on(&self, solid: &str) -> ([f64; 3], Load) {
         let number = self.frame.solids.iter().position(|name| name == solid);
         let load = number.and_then(|n| self.run.loads().get(n).copied()).unwrap_or_default();
-        let Load { force, impulse, wetted } = load;
+        let centre = number.and_then(|n| self.run.setup().solid_motion.get(n)).map_or([0.0; 3], |m| m.centre);
+        (centre, load)
+    }
+
+    /// Torque on a solid about a point, M_p = M_c + (c − p) × F; about its centre of rotation c without one.
+    pub fn torque(&self, solid: &str, about_m: Option<[f64; 3]>) -> Vec<Quantity> {
+        let (centre, load) = self.load_on(solid);
+        let units = &self.frame.units;
+        let about = about_m.map_or(centre, |p| p.map(|x| units.length_to_lattice(x)));
+        let moved = cross(sub(centre, about), load.force);
+        let area = units.dx_m * units.dx_m;
+        let unit = units.force_unit() * area * area;
+        vector("", "N m", std::array::from_fn(|a| (load.torque[a] + moved[a]) * unit))
+    }
+
+    /// Force, impulse, and wetted area by axis and side of a solid: `area_x_low` has its fluid at smaller x.
+    pub fn load(&self, solid: &str) -> Vec<Quantity> {
+        let Load { force, impulse, wetted, .. } = self.load_on(solid).1;
         let units = &self.frame.units;
         let area = units.dx_m * units.dx_m;
         let newton = units.force_unit() * area * units.dx_m;

@@ -131,6 +131,7 @@ impl Gauge {
                 row.extend(state.contacts.map_or_else(Vec::new, |contacts| contacts.on(solid)));
                 row
             }
+            Measure::Torque { solid, about_m } => fluid?.torque(solid, *about_m),
             Measure::Contacts => grains?.contacts(),
             Measure::Energies => grains?.energies(),
             Measure::Momentum => grains?.momentum(),

@@ -53,7 +53,7 @@ fn is_there(at: &Checker, path: &str, needs: Needs, place: &Place) -> Result<(),
     at.ensure(place.grains || !grains, path, || SceneProblem::NeedsGrains)?;
     let surface = match needs {
         Needs::Surface | Needs::BothAndSurface => true,
-        // Loads and ledgers are kept for grains too.
+        // Ledgers are kept for grains too.
         Needs::Books => !place.grains,
         Needs::Fluid | Needs::Grains | Needs::Both => false,
     };
@@ -90,6 +90,7 @@ fn measure(at: &Checker, path: &str, measure: &Measure, place: &Place) -> Result
         Measure::Force { solid, on } => {
             force(at, &format!("{path}.force"), solid.as_deref(), on.as_ref(), place)
         }
+        Measure::Torque { solid, .. } => solid_in_fluid(at, &format!("{path}.torque.solid"), solid, place),
         Measure::Grain { set, .. } => known_set("grain", set),
         Measure::FluidForce { set, .. } => known_set("fluid_force", set),
         Measure::Submergence { set, .. } => known_set("submergence", set),
@@ -169,16 +170,7 @@ fn force(
 ) -> Result<(), SceneError> {
     const KEYS: &[&str] = &["solid", "on"];
     match (solid, on) {
-        (Some(solid), None) => {
-            let solids = &place.solids;
-            at.ensure(solids.iter().any(|name| name == solid), &format!("{path}.solid"), || {
-                SceneProblem::UnknownSolid {
-                    name: solid.to_owned(),
-                    nearest: nearest(solid, solids).map(str::to_owned),
-                    solids: solids.clone(),
-                }
-            })
-        }
+        (Some(solid), None) => solid_in_fluid(at, &format!("{path}.solid"), solid, place),
         (None, Some(Target::Solid(name))) => {
             known(at, &format!("{path}.on.solid"), "solid", name, &place.solids)
         }
@@ -192,6 +184,15 @@ fn force(
             at.fail(path, SceneProblem::KeyCount { found, of: KEYS, rule: KeyRule::ExactlyOne, because })
         }
     }
+}
+
+fn solid_in_fluid(at: &Checker, path: &str, solid: &str, place: &Place) -> Result<(), SceneError> {
+    let solids = &place.solids;
+    at.ensure(solids.iter().any(|name| name == solid), path, || SceneProblem::UnknownSolid {
+        name: solid.to_owned(),
+        nearest: nearest(solid, solids).map(str::to_owned),
+        solids: solids.clone(),
+    })
 }
 
 fn classes_in_range(at: &Checker, path: &str, classes: u32) -> Result<(), SceneError> {

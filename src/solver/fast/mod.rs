@@ -9,6 +9,7 @@ pub mod instructions;
 pub(crate) mod kernel;
 pub(crate) mod layout;
 pub(crate) mod links;
+mod loads;
 pub(crate) mod memory;
 pub(crate) mod predict;
 pub(crate) mod registers;

@@ -150,7 +150,7 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
     }
 
     fn loads(&self) -> Vec<Load> {
-        self.surface.as_ref().map_or_else(Vec::new, |surface| surface.loads.clone())
+        self.surface.as_ref().map_or_else(|| self.loads.clone(), |surface| surface.loads.clone())
     }
 
     fn grains(&self) -> Option<&Immersed> {

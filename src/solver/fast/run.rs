@@ -22,9 +22,10 @@ use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
 use crate::setup::{Setup, WallRule, YieldTreatment};
 use crate::solver::initial;
+use crate::solver::loads::recorded;
 use crate::solver::physics::Physics;
 use crate::solver::pool::{self, each};
-use crate::solver::run::{StartError, Stopped};
+use crate::solver::run::{Load, StartError, Stopped};
 
 /// Populations above this many bytes do not fit the caches: stores then go past them.
 const CACHED: u64 = 24 << 20;
@@ -54,6 +55,8 @@ pub struct FastRun<P, E: Element = f64> {
     pub(super) surface: Option<Surface>,
     /// Grains in the fluid; only absent while they look at the cells.
     pub(super) grains: Option<Box<Immersed>>,
+    /// Loads on solids where no surface keeps them.
+    pub(super) loads: Vec<Load>,
     /// No collision yet.
     pub(super) fresh: bool,
     pub(super) step: u64,
@@ -100,6 +103,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             lag: Vec::new(),
             surface: None,
             grains: None,
+            loads: Vec::new(),
             fresh: true,
             step: 0,
             seconds: [0.0; 5],
@@ -113,6 +117,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 run.add_block(place);
             }
             run.fill_in();
+            run.loads = vec![Load::default(); recorded(setup)];
         }
         Ok(run)
     }
@@ -220,6 +225,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         lap(&mut self.seconds[1]);
         std::mem::swap(&mut self.old, &mut self.new);
         self.fresh = false;
+        self.book_loads();
         self.exchange_with_grains();
         lap(&mut self.seconds[3]);
         self.surface_pass(&force);

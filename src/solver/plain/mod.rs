@@ -6,6 +6,7 @@
 //! every flow needs, `surface` what cells with a kind need besides.
 
 mod grains;
+mod loads;
 pub(crate) mod memory;
 mod passes;
 mod report;

@@ -106,7 +106,7 @@ impl<P: Physics, S: SurfacePhysics> Run for PlainRun<P, S> {
     }
 
     fn loads(&self) -> Vec<Load> {
-        self.surface.as_ref().map_or_else(Vec::new, |surface| surface.loads.clone())
+        self.surface.as_ref().map_or_else(|| self.loads.clone(), |surface| surface.loads.clone())
     }
 
     fn grains(&self) -> Option<&Immersed> {

@@ -10,8 +10,9 @@ use crate::setup::{FlowPoint, Setup, WallRule, YieldTreatment};
 use crate::solver::cell::{self, Cell};
 use crate::solver::initial::{self, REST, starting_omega};
 use crate::solver::physics::Physics;
+use crate::solver::loads::recorded;
 use crate::solver::pool;
-use crate::solver::run::{StartError, Stopped};
+use crate::solver::run::{Load, StartError, Stopped};
 
 /// Cells per chunk of work: enough to hide the hand-over, few enough to balance.
 pub(super) const CHUNK: usize = 4096;
@@ -35,6 +36,8 @@ pub struct PlainRun<P, S = Design> {
     pub(super) surface: Option<Surface<S>>,
     /// Grains in the fluid, which need the kinds of cells with or without gas.
     pub(super) grains: Option<Box<Immersed>>,
+    /// Loads on solids where no surface keeps them.
+    pub(super) loads: Vec<Load>,
     pub(super) step: u64,
     pub(super) pool: Option<rayon::ThreadPool>,
 }
@@ -84,6 +87,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 Vec::new()
             },
             corrections: vec![[0.0; Q]; corrections],
+            loads: vec![Load::default(); if surface.is_none() { recorded(setup) } else { 0 }],
             surface,
             grains,
             step: 0,
@@ -124,6 +128,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         self.exchange_mass();
         self.stream_pass();
         self.book_links();
+        self.book_loads();
         self.convert(&force);
         self.move_grains()?;
         self.step += 1;

@@ -13,6 +13,7 @@ use crate::solver::fast::block::put;
 use crate::solver::fast::element::{Element, index};
 use crate::solver::fast::run::FastRun;
 use crate::solver::initial::{self, REST};
+use crate::solver::loads::recorded;
 use crate::solver::physics::Physics;
 use crate::solver::run::StartError;
 
@@ -56,7 +57,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 wet[self.layout.find(setup.coordinates(cell)).0] = true;
             }
         }
-        let loads = if setup.loads { setup.solid_motion.len() } else { 0 };
+        let loads = recorded(setup);
         self.surface = Some(Surface::new(rules.clone(), loads, self.layout.block_cells()));
         if with_gas {
             self.setup.free_surface = Some(rules);

@@ -82,7 +82,9 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                     Source::Cell { cell: 0, direction: direction as u8 }
                 }
             };
-            let crossing = Crossing { i, leaving: own[out], arrived: arrived[i], share: fill, liquid: false };
+            let arm = self.task.arm(self.number, local, i, &source);
+            let (leaving, arrived) = (own[out], arrived[i]);
+            let crossing = Crossing { i, leaving, arrived, share: fill, liquid: false, arm };
             booked.link(&crossing, &source, gas, entries);
         }
         booked.close(entries);
@@ -185,7 +187,8 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
             };
             *back = arrived;
             let leaving = own[index::<E>(local, opposite(i))].to_f64();
-            let crossing = Crossing { i, leaving, arrived, share: 1.0, liquid: true };
+            let arm = self.task.arm(self.number, local, i, &source);
+            let crossing = Crossing { i, leaving, arrived, share: 1.0, liquid: true, arm };
             booked.link(&crossing, &source, false, entries);
         }
         booked.close(entries);

@@ -10,6 +10,7 @@ use crate::lattice::{Q, opposite};
 use crate::solver::books::{CellEntries, Crossing, Entries};
 use crate::solver::cell::Cell;
 use crate::solver::physics::Physics;
+use crate::solver::loads::arm;
 use crate::solver::plain::run::PlainRun;
 use crate::solver::run::{Ledger, Runaway, Stopped};
 
@@ -54,6 +55,7 @@ impl<P: Physics, S: SurfacePhysics> Wet<'_, P, S> {
         for &cell in &surface.special {
             let cell = cell as usize;
             let liquid = surface.kinds[cell] == Kind::Liquid;
+            let at = self.setup.coordinates(cell);
             let mut own = CellEntries::default();
             for i in 1..Q {
                 let source = self.links.source(cell, i);
@@ -72,6 +74,7 @@ impl<P: Physics, S: SurfacePhysics> Wet<'_, P, S> {
                     arrived: self.f[cell][i],
                     share: if liquid { 1.0 } else { surface.fill[cell] },
                     liquid,
+                    arm: source.body().map_or([0.0; 3], |body| arm(self.setup, at, i, body)),
                 };
                 own.link(&crossing, &source, gas, &mut entries);
             }

@@ -19,6 +19,7 @@ use crate::lattice::moments::density_excess;
 use crate::setup::{FreeSurface, Setup, SurfaceForce};
 use crate::solver::books::Books;
 use crate::solver::cell::Cell;
+use crate::solver::loads::recorded;
 use crate::solver::run::{Load, StartError};
 pub use equations::{Collided, Design, SurfaceLink, SurfacePhysics};
 
@@ -76,7 +77,6 @@ impl<S: SurfacePhysics> Surface<S> {
             })
             .collect();
         let inertia = rules.force == SurfaceForce::ByFillAndInertia;
-        let loads = if setup.loads { setup.solid_motion.len() } else { 0 };
         Ok(Some(Self {
             rules,
             equations,
@@ -90,7 +90,7 @@ impl<S: SurfacePhysics> Surface<S> {
             parked: BTreeMap::new(),
             special: Vec::new(),
             books: Books::default(),
-            loads: vec![Load::default(); loads],
+            loads: vec![Load::default(); recorded(setup)],
         }))
     }
 
