@@ -11,6 +11,7 @@ use super::surface_graph::{Graph, Node};
 use crate::lattice::equilibrium::dot;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{C, Q, W, opposite};
+use crate::setup::course::Factors;
 use crate::setup::{Setup, SolidMotion};
 
 /// Mass that a boundary cell hands to one of its neighbours in a step.
@@ -38,18 +39,6 @@ pub(crate) struct Record {
 }
 
 impl Record {
-    /// (ρM − G)/Σw: what a link to the solid sends back besides \[B1\], divided by its weight.
-    ///
-    /// # Arguments
-    /// `rho`: density of the cell. `given`: G = Σ q over wet neighbours.
-    /// # Returns
-    /// With it the links of the cell take in G instead of ρM.
-    #[inline]
-    #[must_use]
-    pub(crate) fn raise(&self, rho: f64, given: f64) -> f64 {
-        (rho * self.taken - given) / self.weight
-    }
-
     /// G where every neighbour is wet.
     #[inline]
     #[must_use]
@@ -59,11 +48,19 @@ impl Record {
 }
 
 /// Who hands what to whom: empty if no solid moves.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct HandOver {
     /// In order of cell and solid.
     records: Vec<Record>,
     edges: Vec<Edge>,
+    /// Of the velocities now.
+    factors: Factors,
+}
+
+impl Default for HandOver {
+    fn default() -> Self {
+        Self { records: Vec::new(), edges: Vec::new(), factors: Factors::one() }
+    }
 }
 
 impl HandOver {
@@ -116,6 +113,30 @@ impl HandOver {
             return None;
         }
         self.of(cell).iter().find(|record| record.body == body)
+    }
+
+    /// (ρM − G)/Σw: what a link to the solid sends back besides \[B1\], divided by its weight.
+    ///
+    /// # Arguments
+    /// `rho`: density of the cell. `given`: G = Σ q over wet neighbours, velocities as in the set-up.
+    /// # Returns
+    /// With it the links of the cell take in G instead of ρM.
+    #[inline]
+    #[must_use]
+    pub(crate) fn raise(&self, record: &Record, rho: f64, given: f64) -> f64 {
+        self.factors.solid(record.body) * ((rho * record.taken - given) / record.weight)
+    }
+
+    /// What a record hands over an edge now, at ρ = 1.
+    #[inline]
+    #[must_use]
+    pub(crate) fn flux(&self, record: &Record, edge: &Edge) -> f64 {
+        self.factors.solid(record.body) * edge.flux
+    }
+
+    /// Gives the solids the velocities of a time.
+    pub(crate) fn move_solids(&mut self, factors: &Factors) {
+        self.factors = factors.clone();
     }
 
     /// Neighbours of a cell along the surface.
@@ -262,7 +283,7 @@ mod tests {
             assert!(most > 1e-4 * radius);
             for record in &table.records {
                 assert!((record.taken - record.all()).abs() < 1e-11 * most, "{record:?}");
-                assert!(record.raise(1.0, record.all()).abs() < 1e-9 * most);
+                assert!(table.raise(record, 1.0, record.all()).abs() < 1e-9 * most);
             }
         }
     }

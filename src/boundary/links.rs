@@ -5,6 +5,7 @@ use super::bounce_back::surface_velocity;
 use super::flat_wall::FlatWall;
 use crate::lattice::equilibrium::dot;
 use crate::lattice::{C, Q, W, direction, opposite};
+use crate::setup::course::Factors;
 use crate::setup::{Face, Setup};
 
 /// Where a population comes from.
@@ -200,6 +201,17 @@ impl Links {
         }
     }
 
+    /// Gives the walls of boundary cells the velocities of a time.
+    pub(crate) fn move_walls(&mut self, setup: &Setup, factors: &Factors) {
+        for record in &mut self.boundary {
+            if record.walls != 0
+                && let Some(now) = boundary_cell_at(setup, factors, record.cell as usize)
+            {
+                *record = now;
+            }
+        }
+    }
+
     /// Bytes held by the table.
     #[must_use]
     pub(crate) fn bytes(&self) -> u64 {
@@ -213,13 +225,18 @@ impl Links {
 /// The record of a cell, or `None` if every link is ordinary; `setup` must have passed
 /// [`crate::solver::check::check`] and the cell must not be solid.
 pub(crate) fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> {
+    boundary_cell_at(setup, &Factors::one(), cell)
+}
+
+/// As [`boundary_cell`], at a time at which the velocities have these factors.
+pub(crate) fn boundary_cell_at(setup: &Setup, factors: &Factors, cell: usize) -> Option<BoundaryCell> {
     let at = setup.coordinates(cell);
     let mut sources = [Source::Cell { cell: cell as u32, direction: 0 }; Q];
     let mut ordinary = true;
     let mut drag = [0.0; 3];
     let mut walls = 0;
     for i in 1..Q {
-        let (source, plain) = resolve(setup, at, i);
+        let (source, plain) = resolve_at(setup, factors, at, i);
         sources[i] = source;
         ordinary &= plain;
         if let Source::Wall { velocity, .. } = source {
@@ -248,6 +265,11 @@ pub(crate) fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> 
 /// velocity is reversed and the source stays on this side \[B2\].
 #[must_use]
 pub(crate) fn resolve(setup: &Setup, at: [usize; 3], i: usize) -> (Source, bool) {
+    resolve_at(setup, &Factors::one(), at, i)
+}
+
+/// As [`resolve`], at a time at which the velocities have these factors.
+fn resolve_at(setup: &Setup, factors: &Factors, at: [usize; 3], i: usize) -> (Source, bool) {
     let mut upstream = at;
     let mut c = C[i];
     let mut ordinary = true;
@@ -272,7 +294,7 @@ pub(crate) fn resolve(setup: &Setup, at: [usize; 3], i: usize) -> (Source, bool)
                 ordinary = false;
             }
             Face::NoSlip => wall = Some(add(wall, [0.0; 3])),
-            Face::Moving(u) => wall = Some(add(wall, u)),
+            Face::Moving(u) => wall = Some(add(wall, scaled(u, factors.face(axis, side)))),
             Face::Open => open = true,
         }
     }
@@ -284,11 +306,16 @@ pub(crate) fn resolve(setup: &Setup, at: [usize; 3], i: usize) -> (Source, bool)
     }
     let cell = setup.index(upstream);
     if setup.is_solid(cell) {
-        let velocity = solid_velocity(setup, at, i, cell);
-        return (Source::Wall { velocity, body: setup.solids[cell] }, false);
+        let body = setup.solids[cell];
+        let velocity = scaled(solid_velocity(setup, at, i, cell), factors.solid(body));
+        return (Source::Wall { velocity, body }, false);
     }
     let direction = direction(c).unwrap_or(0) as u8;
     (Source::Cell { cell: cell as u32, direction }, ordinary)
+}
+
+fn scaled(u: [f64; 3], factor: f64) -> [f64; 3] {
+    u.map(|u| factor * u)
 }
 
 /// A link through the edge of two walls moves with both.

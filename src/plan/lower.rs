@@ -6,11 +6,11 @@ use super::initial::initial_flow;
 use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::hydrostatic;
 use crate::scene::{
-    BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Operator, PrecisionChoice,
+    BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Motion, Operator, PrecisionChoice,
     RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
 use crate::setup::{
-    BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
+    BodyForce, Course, Courses, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
     YieldTreatment,
 };
 use crate::units::Units;
@@ -36,6 +36,7 @@ pub(crate) fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
     setup.solids = cells.solids;
     setup.fluid_of_cell = cells.fluid_of_cell;
     setup.solid_motion = solid_motion(scene, units);
+    setup.courses = courses(scene, units);
     setup.yielding = yield_treatment(&scene.numerics.yield_treatment, units);
     setup.collision = collision(facts);
     setup.wall_rule = match scene.numerics.wall_rule {
@@ -94,6 +95,33 @@ fn solid_motion(scene: &Scene, units: &Units) -> Vec<SolidMotion> {
         centre: solid.centre_m.unwrap_or_else(|| solid.shape.centre()).map(|x| units.length_to_lattice(x)),
     };
     scene.solids.iter().map(motion).collect()
+}
+
+/// How walls and solids move in time; empty lists where all is steady.
+fn courses(scene: &Scene, units: &Units) -> Courses {
+    let mut courses = Courses::default();
+    for (axis, side, _, motion) in scene.domain.motion.named() {
+        courses.faces[axis][side] = course(motion, units);
+    }
+    if scene.solids.iter().any(|solid| solid.motion.is_some()) {
+        let of = |motion: &Option<Motion>| motion.as_ref().map_or(Course::Constant, |m| course(m, units));
+        courses.solids = scene.solids.iter().map(|solid| of(&solid.motion)).collect();
+    }
+    courses
+}
+
+fn course(motion: &Motion, units: &Units) -> Course {
+    match motion {
+        Motion::Oscillating { frequency_hz, amplitude, mean, phase_rad } => Course::Oscillating {
+            mean: *mean,
+            amplitude: *amplitude,
+            frequency: units.rate_to_lattice(std::f64::consts::TAU * frequency_hz),
+            phase: *phase_rad,
+        },
+        Motion::Table { points } => {
+            Course::Table(points.iter().map(|[time, factor]| [units.time_to_lattice(*time), *factor]).collect())
+        }
+    }
 }
 
 /// The collision operator with defaults filled in.

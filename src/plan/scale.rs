@@ -5,7 +5,7 @@ use super::facts::Facts;
 use super::surface::Pool;
 use crate::rheology::FlowCurve;
 use crate::scene::force::norm;
-use crate::scene::{BodyForce, Boundary, InitialVelocity, Scene};
+use crate::scene::{BodyForce, Boundary, InitialVelocity, Motion, Scene};
 
 /// Expected scales, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,15 +135,21 @@ fn driven_velocity(scene: &Scene, curve: &dyn FlowCurve, driving: f64, half_gap:
 fn wall_speed(facts: &Facts, cells: &Cells) -> f64 {
     let scene = facts.scene;
     let mut fastest: f64 = 0.0;
-    for face in facts.faces.into_iter().flatten() {
+    let motions = scene.domain.motion.by_axis();
+    for (face, motion) in facts.faces.into_iter().flatten().zip(motions.into_iter().flatten()) {
         if let Boundary::MovingWall { velocity_m_per_s } = face {
-            fastest = greatest(fastest, norm(velocity_m_per_s));
+            fastest = greatest(fastest, most(motion) * norm(velocity_m_per_s));
         }
     }
     if scene.solids.iter().any(|s| s.velocity_m_per_s != [0.0; 3] || s.spin_rad_per_s != [0.0; 3]) {
         fastest = greatest(fastest, solid_speed(scene, cells));
     }
     fastest
+}
+
+/// Largest factor of a velocity in time.
+fn most(motion: Option<&Motion>) -> f64 {
+    motion.map_or(1.0, Motion::most)
 }
 
 /// Fastest surface of a solid: over solid cells with a fluid neighbour.
@@ -169,7 +175,7 @@ fn solid_speed(scene: &Scene, cells: &Cells) -> f64 {
                     v[1] + w[2] * r[0] - w[0] * r[2],
                     v[2] + w[0] * r[1] - w[1] * r[0],
                 ];
-                fastest = greatest(fastest, norm(u));
+                fastest = greatest(fastest, most(solid.motion.as_ref()) * norm(u));
             }
         }
     }

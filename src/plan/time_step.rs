@@ -6,7 +6,7 @@ use super::error::PlanProblem;
 use super::facts::Facts;
 use super::scale::Scales;
 use super::surface::Pool;
-use crate::scene::{BodyForce, Scene};
+use crate::scene::{BodyForce, Motion, Scene};
 use crate::units::Units;
 
 /// Speed in cells per step aimed at when the scene leaves Δt to `plan` (Ma = 0.087).
@@ -208,9 +208,20 @@ fn compression_step(facts: &Facts, pool: Option<&Pool>) -> f64 {
 fn duration(scene: &Scene) -> f64 {
     let end = scene.stop.end_time_s;
     match scene.fluid.body_force {
-        Some(BodyForce::Oscillating { frequency_hz, .. }) if frequency_hz * end > 1.0 => 1.0 / frequency_hz,
-        _ => end,
+        Some(BodyForce::Oscillating { frequency_hz, .. }) if frequency_hz * end > 1.0 => least_period(scene, 1.0 / frequency_hz),
+        _ => least_period(scene, end),
     }
+}
+
+/// The shortest period of a wall or solid, at most `longest`, s.
+fn least_period(scene: &Scene, longest: f64) -> f64 {
+    let walls = scene.domain.motion.named().map(|(.., motion)| motion);
+    walls.chain(scene.solids.iter().filter_map(|solid| solid.motion.as_ref())).fold(longest, |least, motion| {
+        match motion {
+            Motion::Oscillating { frequency_hz, .. } if frequency_hz * least > 1.0 => 1.0 / frequency_hz,
+            Motion::Oscillating { .. } | Motion::Table { .. } => least,
+        }
+    })
 }
 
 /// Units of a scene at a time step.

@@ -6,8 +6,8 @@ use super::dry::Grains;
 use super::parse::finite;
 use super::{
     Arrested, BodyForce, Boundaries, Boundary, Cadence, Domain, End, FillLevel, Fluid, Gravity, InitialFluid,
-    InitialVelocity, Layer, Measure, Numerics, Output, Probe, Rheology, Scene, SceneError, Solid, Steady,
-    Stop, check,
+    InitialVelocity, Layer, Measure, Motions, Numerics, Output, Probe, Rheology, Scene, SceneError, Solid,
+    Steady, Stop, check,
 };
 use crate::geometry::{Axis, Shape};
 
@@ -29,10 +29,10 @@ impl Scene {
     /// ```
     /// use lahar::geometry::Axis;
     /// use lahar::plan::Plan;
-    /// use lahar::scene::{Boundaries, Boundary, Domain, End, FillLevel, Fluid, Gravity, Rheology, Scene};
+    /// use lahar::scene::{Boundaries, Boundary, Domain, End, FillLevel, Fluid, Gravity, Motions, Rheology, Scene};
     ///
     /// let mud = Rheology::Bingham { yield_stress_pa: 40.0, plastic_viscosity_pa_s: 5.0 };
-    /// let domain = Domain { size_m: [0.01, 0.01, 0.2], spacing_m: 0.01, boundaries: Boundaries::default() };
+    /// let domain = Domain { size_m: [0.01, 0.01, 0.2], spacing_m: 0.01, boundaries: Boundaries::default(), motion: Motions::default() };
     /// let scene = Scene::builder(domain, Fluid::new(1500.0, mud), 2.0)
     ///     .title("mud on a slope")
     ///     .face(Axis::Z, End::Min, Boundary::NoSlip)
@@ -47,8 +47,8 @@ impl Scene {
     /// ```
     /// What is wrong with a scene is said as for a file:
     /// ```
-    /// # use lahar::scene::{Boundaries, Domain, Fluid, Rheology, Scene};
-    /// let domain = Domain { size_m: [1.0; 3], spacing_m: 0.3, boundaries: Boundaries::default() };
+    /// # use lahar::scene::{Boundaries, Domain, Fluid, Motions, Rheology, Scene};
+    /// let domain = Domain { size_m: [1.0; 3], spacing_m: 0.3, boundaries: Boundaries::default(), motion: Motions::default() };
     /// let water = Fluid::new(1000.0, Rheology::Newtonian { viscosity_pa_s: 1e-3 });
     /// let refused = Scene::builder(domain, water, 1.0).build().unwrap_err();
     /// assert_eq!(refused.path, "domain.size_m[0]");
@@ -100,7 +100,7 @@ impl Scene {
     ) -> SceneBuilder {
         let spacing_m = gap_m / f64::from(cells);
         let walls = Boundaries { z_min: Boundary::NoSlip, z_max: Boundary::NoSlip, ..Boundaries::default() };
-        let domain = Domain { size_m: [spacing_m, spacing_m, gap_m], spacing_m, boundaries: walls };
+        let domain = Domain { size_m: [spacing_m, spacing_m, gap_m], spacing_m, boundaries: walls, motion: Motions::default() };
         let force = BodyForce::Constant { force_n_per_m3: [force_n_per_m3, 0.0, 0.0] };
         Self::builder(domain, Fluid { body_force: Some(force), ..fluid }, end_time_s)
     }
@@ -232,7 +232,7 @@ mod tests {
     #[test]
     fn built_scenes_are_what_their_files_say() {
         let ball = Shape::Sphere { centre_m: [0.5; 3], radius_m: 0.2 };
-        let domain = Domain { size_m: [1.0; 3], spacing_m: 0.125, boundaries: Boundaries::default() };
+        let domain = Domain { size_m: [1.0; 3], spacing_m: 0.125, boundaries: Boundaries::default(), motion: Motions::default() };
         let scene = Scene::builder(domain, water(), 1.0)
             .gravity(Gravity::down(9.81))
             .solid(Solid::new("ball", ball))

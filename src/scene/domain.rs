@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::motion::Motions;
 use crate::geometry::Axis;
 
 /// The box that is filled with cells.
@@ -17,6 +18,9 @@ pub struct Domain {
     /// What happens at the six faces.
     #[serde(default)]
     pub boundaries: Boundaries,
+    /// How moving walls of the box move in time; steadily when not given.
+    #[serde(default, skip_serializing_if = "Motions::is_empty")]
+    pub motion: Motions,
 }
 
 /// One boundary condition per face; a face that is not named is periodic.

@@ -133,6 +133,12 @@ pub enum SceneProblem {
          way out: set component {axis} to 0"
     )]
     WallNormalVelocity { found: f64, axis: char },
+    /// A table of motion whose times go back.
+    #[error(
+        "found {found} s after {before} s\n  allowed: times that ascend, one factor at a time\n  \
+         way out: put the pairs in order, and keep one of each time"
+    )]
+    TimesNotAscending { before: f64, found: f64 },
     /// A direction of length zero.
     #[error(
         "found [0, 0, 0]\n  \

@@ -209,6 +209,9 @@ pub struct Solid {
     /// Angular velocity of its surface, rad/s.
     #[serde(default)]
     pub spin_rad_per_s: [f64; 3],
+    /// How velocity and spin change in time; steady when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<super::motion::Motion>,
     /// Centre of rotation, m; the centre of the shape when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub centre_m: Option<[f64; 3]>,
@@ -260,6 +263,7 @@ impl Solid {
             invert: false,
             velocity_m_per_s: [0.0; 3],
             spin_rad_per_s: [0.0; 3],
+            motion: None,
             centre_m: None,
             material: None,
         }

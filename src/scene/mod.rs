@@ -11,6 +11,7 @@ mod error;
 mod fluid;
 pub(crate) mod force;
 mod located;
+mod motion;
 mod nearest;
 mod numerics;
 mod operator;
@@ -33,6 +34,7 @@ pub use fluid::{
     BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialPressure, InitialVelocity, Layer,
     Solid,
 };
+pub use motion::{Motion, Motions};
 pub use numerics::{
     Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Numerics, Output, PrecisionChoice, RefillChoice,
     Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,

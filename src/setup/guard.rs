@@ -77,6 +77,9 @@ pub enum StartError {
         /// The component of its velocity, lattice units.
         found: f64,
     },
+    /// A course that says nothing.
+    #[error("a course of motion is not finite, or has a table that is empty or whose times do not ascend")]
+    Course,
     /// More cells than this build can index.
     #[error("{cells} cells are more than the {max} this solver can index")]
     TooManyCells {

@@ -6,9 +6,11 @@
 
 use std::sync::Arc;
 
+pub mod course;
 pub(crate) mod guard;
 pub(crate) mod suspension;
 
+pub use course::{Course, Courses};
 pub use suspension::Suspension;
 
 use crate::collision::CollisionChoice;
@@ -230,6 +232,8 @@ pub struct Setup {
     pub solids: Vec<u8>,
     /// Motion of each numbered solid.
     pub solid_motion: Vec<SolidMotion>,
+    /// How the velocities of faces and solids change in time; constant by default.
+    pub courses: Courses,
     /// Per cell: index into `fluids`. Empty: all cells hold `fluids[0]`.
     pub fluid_of_cell: Vec<u8>,
     /// The constitutive laws, lattice units.
@@ -269,6 +273,7 @@ impl Setup {
             faces: [[Face::Periodic; 2]; 3],
             solids: Vec::new(),
             solid_motion: Vec::new(),
+            courses: Courses::default(),
             fluid_of_cell: Vec::new(),
             fluids: vec![law],
             yielding: YieldTreatment::Exact,

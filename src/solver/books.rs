@@ -168,7 +168,7 @@ pub(crate) fn mass_handed(hand_over: &HandOver, cell: usize, share: impl Fn(usiz
     let mut sum = Sum::default();
     for record in hand_over.of(cell) {
         for edge in hand_over.edges(record) {
-            sum.add(share(edge.cell as usize) * edge.flux);
+            sum.add(share(edge.cell as usize) * hand_over.flux(record, edge));
         }
     }
     sum.value()

@@ -2,7 +2,7 @@
 
 use super::run::StartError;
 use crate::boundary::links::MAX_CELLS;
-use crate::setup::{Face, Setup};
+use crate::setup::{Course, Face, Setup};
 
 /// Checks lengths, table entries, faces and size.
 ///
@@ -37,6 +37,9 @@ pub(crate) fn check(setup: &Setup) -> Result<(), StartError> {
     table(setup, "fluid_of_cell", &setup.fluid_of_cell, "fluids", setup.fluids.len())?;
     if !setup.solids.is_empty() && setup.solids.iter().all(|&s| s != 0) {
         return Err(StartError::NoFluid);
+    }
+    if !setup.courses.all().all(Course::is_sound) {
+        return Err(StartError::Course);
     }
     surface(setup)
 }

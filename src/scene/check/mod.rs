@@ -3,6 +3,7 @@
 mod coupled;
 pub(super) mod domain;
 pub(super) mod fluid;
+mod motion;
 pub(super) mod numerics;
 pub(super) mod output;
 pub(super) mod probes;
@@ -22,6 +23,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     surface::check(&at, scene)?;
     fluid::check_layers(&at, scene)?;
     fluid::check_solids(&at, scene)?;
+    motion::check(&at, scene)?;
     coupled::check(&at, scene)?;
     numerics::check_numerics(&at, &scene.numerics)?;
     numerics::check_stop(&at, &scene.stop)?;

@@ -91,19 +91,23 @@ pub(crate) struct Block {
 /// The list of wall velocities of a run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Velocities {
-    /// Lattice units.
+    /// Now, lattice units.
     pub list: Vec<[f64; 3]>,
+    /// As in the set-up, and what each of them moves with.
+    given: Vec<([f64; 3], u16)>,
 }
 
 impl Velocities {
-    fn number(&mut self, velocity: [f64; 3]) -> u32 {
-        let same = |v: &[f64; 3]| v.map(f64::to_bits) == velocity.map(f64::to_bits);
+    /// `movers`: what moves with it, so that two of one velocity now may differ later.
+    fn number(&mut self, velocity: [f64; 3], movers: u16) -> u32 {
+        let bits = velocity.map(f64::to_bits);
+        let same = |k: &usize| self.given[*k].0.map(f64::to_bits) == bits && self.given[*k].1 == movers;
         // Faces have a few velocities; a spinning solid has one per link, most often new.
         let recent = self.list.len().saturating_sub(16);
-        let found = self.list[..self.list.len().min(8)].iter().position(same);
-        let found = found.or_else(|| self.list[recent..].iter().position(same).map(|k| k + recent));
+        let found = (0..self.list.len().min(8)).find(same).or_else(|| (recent..self.list.len()).find(same));
         let number = found.unwrap_or_else(|| {
             self.list.push(velocity);
+            self.given.push((velocity, movers));
             self.list.len() - 1
         });
         number as u32
@@ -197,7 +201,8 @@ impl Block {
                 }
                 Source::Wall { velocity, body } => {
                     rim.walls |= 1 << opposite(i);
-                    Origin::Wall { velocity: velocities.number(velocity), body }
+                    let movers = movers(setup, layout.cell(self.origin, local), i, body);
+                    Origin::Wall { velocity: velocities.number(velocity, movers), body }
                 }
                 Source::Open => {
                     rim.open = true;
@@ -286,6 +291,23 @@ pub(crate) fn source(setup: &Setup, record: Option<&BoundaryCell>, cell: usize, 
             Source::Cell { cell: setup.index(from) as u32, direction: i as u8 }
         }
     }
+}
+
+/// What the wall at the end of a link moves with, where that changes in time: the solid, or the faces that the link leaves
+/// through, a bit each.
+fn movers(setup: &Setup, at: [usize; 3], i: usize, body: u8) -> u16 {
+    if !setup.courses.vary() {
+        return 0;
+    }
+    if body != 0 {
+        return 64 + u16::from(body);
+    }
+    let leaves = |axis: usize| match C[i][axis] {
+        1 if at[axis] == 0 => 1 << (2 * axis),
+        -1 if at[axis] + 1 == setup.extents[axis] => 2 << (2 * axis),
+        _ => 0,
+    };
+    leaves(0) | leaves(1) | leaves(2)
 }
 
 /// Place of a cell by its number in the box.

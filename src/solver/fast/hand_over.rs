@@ -8,7 +8,7 @@ use crate::boundary::hand_over::Record;
 use crate::lattice::moments::density_excess;
 use crate::solver::books::mass_handed;
 
-/// (ρM − G)/Σw of a cell at a solid, see [`Record::raise`]; `None` at faces of the box and solids at rest.
+/// (ρM − G)/Σw of a cell at a solid, see [`HandOver::raise`](crate::boundary::hand_over::HandOver::raise); `None` at faces of the box and solids at rest.
 #[inline]
 pub(crate) fn raise<P, E: Element>(task: &Task<P, E>, number: usize, local: usize, body: u8) -> Option<f64> {
     if body == 0 || task.hand_over.is_empty() {
@@ -16,7 +16,7 @@ pub(crate) fn raise<P, E: Element>(task: &Task<P, E>, number: usize, local: usiz
     }
     let record = task.hand_over.at(task.cell(number, local), body)?;
     let rho = 1.0 + density_excess(&after(task, number, local));
-    Some(record.raise(rho, given(task, record)))
+    Some(task.hand_over.raise(record, rho, given(task, record)))
 }
 
 /// Mass that goes to the neighbours that hold fluid.

@@ -11,6 +11,7 @@ pub(crate) mod layout;
 pub(crate) mod links;
 mod loads;
 pub(crate) mod memory;
+mod moving;
 pub(crate) mod predict;
 pub(crate) mod registers;
 mod report;

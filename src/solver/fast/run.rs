@@ -221,6 +221,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             return Err(stopped);
         }
         lap(&mut self.seconds[0]);
+        self.move_walls();
         self.wall_pass(&force);
         lap(&mut self.seconds[1]);
         std::mem::swap(&mut self.old, &mut self.new);

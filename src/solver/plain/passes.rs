@@ -193,7 +193,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                     let back = cell::wall_link(&self.physics, own, correction, i, rho, &velocity);
                     match self.hand_over.at(cell, body) {
                         None => back,
-                        Some(record) => back + W[i] * record.raise(rho, self.given(record)),
+                        Some(record) => back + W[i] * self.hand_over.raise(record, rho, self.given(record)),
                     }
                 }
                 Source::Open => self.open_link(cell, i),

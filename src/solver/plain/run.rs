@@ -6,6 +6,7 @@ use crate::boundary::hand_over::HandOver;
 use crate::boundary::links::{CellKind, Links};
 use crate::coupling::Immersed;
 use crate::lattice::Q;
+use crate::setup::course::Factors;
 use crate::setup::{FlowPoint, Setup, WallRule, YieldTreatment};
 use crate::solver::cell::{self, Cell};
 use crate::solver::initial::{self, REST, starting_omega};
@@ -122,6 +123,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
     /// One time step; the passes that know a surface or grains do nothing without.
     fn advance_one(&mut self) -> Result<(), Stopped> {
         let force = self.body_force();
+        self.move_walls();
         self.wall_pass(&force);
         self.collide_pass(&force)?;
         self.exchange_with_grains();
@@ -133,6 +135,15 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         self.move_grains()?;
         self.step += 1;
         self.close_books()
+    }
+
+    /// Gives walls and solids the velocities of this step, where they change in time.
+    fn move_walls(&mut self) {
+        if self.setup.courses.vary() {
+            let factors = Factors::at(&self.setup, self.step);
+            self.links.move_walls(&self.setup, &factors);
+            self.hand_over.move_solids(&factors);
+        }
     }
 
     pub(super) fn run(&mut self, steps: u64) -> Result<(), Stopped> {

@@ -5,6 +5,7 @@
 //! volume in SI, or all of them in lattice units. A [`lahar::rheology::Law`] holds dynamic values.
 
 pub mod abc;
+mod complex;
 pub mod couette;
 pub mod dam_break;
 pub mod discrete_modes;
@@ -14,6 +15,7 @@ pub mod flow_curve;
 pub mod grains;
 pub mod layered_channel;
 pub mod norms;
+pub mod oscillating_wall;
 pub mod pipe;
 pub mod poiseuille;
 pub mod poiseuille_clamped;

@@ -1,35 +1,6 @@
 //! Oscillating flow in a plane channel.
 
-/// A complex number, as little of one as is needed here.
-#[derive(Clone, Copy)]
-struct Complex {
-    re: f64,
-    im: f64,
-}
-
-impl Complex {
-    fn exp(self) -> Self {
-        let size = libm::exp(self.re);
-        Self { re: size * libm::cos(self.im), im: size * libm::sin(self.im) }
-    }
-
-    fn scale(self, by: f64) -> Self {
-        Self { re: self.re * by, im: self.im * by }
-    }
-
-    fn times(self, o: Self) -> Self {
-        Self { re: self.re * o.re - self.im * o.im, im: self.re * o.im + self.im * o.re }
-    }
-
-    fn over(self, o: Self) -> Self {
-        let size = o.re * o.re + o.im * o.im;
-        self.times(Self { re: o.re / size, im: -o.im / size })
-    }
-
-    fn plus_one(self) -> Self {
-        Self { re: self.re + 1.0, im: self.im }
-    }
-}
+use super::complex::Complex;
 
 /// Newtonian channel |y| ≤ h under the acceleration A cos ωt (force per volume over density), after
 /// the transient: u = Re{ (A/iω) \[1 − cosh(λy)/cosh(λh)\] e^{iωt} }, λ = √(iω/ν).

@@ -58,6 +58,8 @@ pub static STUDY: Study = Study {
         couette::SHEAR_RATE,
         couette::TAYLOR,
         turning::RING,
+        turning::TORQUE,
+        turning::ARRAY,
         density::SI_DENSITY,
         density::UNIFORM_ACCELERATION,
         ducts_pipes::SQUARE_DUCT,

@@ -7,6 +7,7 @@ mod acoustic;
 mod drift;
 mod elastic;
 mod mirror;
+mod oscillating_wall;
 mod plug;
 mod resting_layer;
 mod start_up;
@@ -34,6 +35,7 @@ pub static STUDY: Study = Study {
         womersley::ALPHA_1_CENTRAL,
         womersley::ALPHA_4_CENTRAL,
         womersley::ALPHA_10_CENTRAL,
+        oscillating_wall::WALL,
         mirror::WALL_SET_IN_MOTION,
         mirror::HALF_CHANNEL,
         mirror::QUARTER_DUCT,

@@ -1,0 +1,54 @@
+//! Checks of motions in time.
+
+use crate::scene::checker::Checker;
+use crate::scene::{Boundary, Motion, Scene, SceneError, SceneProblem, Solid};
+
+/// Motions belong to walls and solids that move, and say something at every time.
+pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
+    let faces = scene.domain.boundaries.by_axis();
+    for (axis, side, key, motion) in scene.domain.motion.named() {
+        let path = format!("domain.motion.{key}");
+        let moves = matches!(faces[axis][side], Boundary::MovingWall { .. });
+        let because = "the face of this name is no `moving_wall`";
+        at.ensure(moves, &path, || SceneProblem::UnusedKey { key, because })?;
+        one(at, &path, motion, scene)?;
+    }
+    for (i, solid) in scene.solids.iter().enumerate() {
+        let Some(motion) = &solid.motion else { continue };
+        let path = format!("solids[{i}].motion");
+        let because = "the solid has neither `velocity_m_per_s` nor `spin_rad_per_s`";
+        at.ensure(moves(solid), &path, || SceneProblem::UnusedKey { key: "motion", because })?;
+        one(at, &path, motion, scene)?;
+    }
+    Ok(())
+}
+
+fn moves(solid: &Solid) -> bool {
+    solid.velocity_m_per_s != [0.0; 3] || solid.spin_rad_per_s != [0.0; 3]
+}
+
+fn one(at: &Checker, path: &str, motion: &Motion, scene: &Scene) -> Result<(), SceneError> {
+    at.ensure(scene.grains.is_none(), path, || SceneProblem::NotWithGrains {
+        what: "a wall whose velocity changes in time",
+        allowed: "walls that move steadily: grains feel the velocity of time 0",
+    })?;
+    match motion {
+        Motion::Oscillating { frequency_hz, .. } => {
+            let path = format!("{path}.oscillating.frequency_hz");
+            let way_out = "leave `motion` out for a steady velocity";
+            at.positive(&path, *frequency_hz, "1/s", "it is a frequency", way_out)
+        }
+        Motion::Table { points } => {
+            let path = format!("{path}.table.points");
+            at.some(&path, points.len(), "pair of a time and a factor")?;
+            for (k, pair) in points.windows(2).enumerate() {
+                let (before, found) = (pair[0][0], pair[1][0]);
+                at.ensure(before < found, &format!("{path}[{}]", k + 1), || SceneProblem::TimesNotAscending {
+                    before,
+                    found,
+                })?;
+            }
+            Ok(())
+        }
+    }
+}
