@@ -8,7 +8,12 @@ use lahar::{Axis, Backend, Fast, Plan, Scene};
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (density, sigma0, mu, depth, slope) = (1500.0, 40.0, 50.0, 0.1, 20.0_f64);
     let mud = Rheology::Bingham { yield_stress_pa: sigma0, plastic_viscosity_pa_s: mu };
-    let domain = Domain { size_m: [0.005, 0.005, 0.15], spacing_m: 0.005, boundaries: Boundaries::default(), motion: Motions::default() };
+    let domain = Domain {
+        size_m: [0.005, 0.005, 0.15],
+        spacing_m: 0.005,
+        boundaries: Boundaries::default(),
+        motion: Motions::default(),
+    };
     let scene = Scene::builder(domain, Fluid::new(density, mud), 1.5)
         .title("mud on a slope")
         .face(Axis::Z, End::Min, Boundary::NoSlip)

@@ -15,8 +15,8 @@ use lahar::plan::Plan;
 use lahar::rheology::Law;
 use lahar::scene;
 use lahar::setup::{
-    BodyForce, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
-    YieldTreatment,
+    BodyForce, Course, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce,
+    WallRule, YieldTreatment,
 };
 use lahar::solver::choose::only_plain;
 use lahar::solver::fast::Fast;
@@ -199,7 +199,15 @@ fn build((faces, (surface, (extents, seed), laws, scheme)): Recipe) -> Setup {
         setup.solids = (0..cells).map(|cell| u8::from(noise(cell / 3, seed) < share)).collect();
         setup.solid_motion =
             vec![SolidMotion { velocity: [0.0; 3], spin: [1e-4, 0.0, -2e-4], centre: [3.0, 2.0, 1.0] }];
-        setup.loads = surface;
+        setup.loads = true;
+    }
+    if seed % 7 < 2 {
+        let swing = Course::Oscillating { mean: 0.2, amplitude: 0.9, frequency: 0.4, phase: 1.0 };
+        let table = Course::Table([[3.0, -1.0], [9.5, 1.0], [14.0, 0.25]].into());
+        setup.courses.faces = std::array::from_fn(|axis| {
+            [swing.clone(), if axis == 1 { Course::Constant } else { table.clone() }]
+        });
+        setup.courses.solids = vec![if seed % 7 == 0 { swing } else { table }];
     }
     if surface {
         let level = 0.4 + 0.5 * noise(1, seed);

@@ -173,7 +173,8 @@ impl HandOver {
 /// Numbers of the solids that move.
 fn moving(setup: &Setup) -> impl Iterator<Item = u8> {
     let moves = |motion: &SolidMotion| motion.velocity != [0.0; 3] || motion.spin != [0.0; 3];
-    let list: Vec<u8> = (1..=u8::MAX).zip(&setup.solid_motion).filter(|(_, m)| moves(m)).map(|x| x.0).collect();
+    let list: Vec<u8> =
+        (1..=u8::MAX).zip(&setup.solid_motion).filter(|(_, m)| moves(m)).map(|x| x.0).collect();
     list.into_iter()
 }
 
@@ -186,7 +187,8 @@ fn surface_of(setup: &Setup, body: u8) -> (Vec<Node>, Graph) {
         .collect();
     cells.sort_unstable();
     cells.dedup();
-    let records = cells.into_iter().filter_map(|cell| Some((cell, boundary_cell(setup, cell as usize)?.sources)));
+    let records =
+        cells.into_iter().filter_map(|cell| Some((cell, boundary_cell(setup, cell as usize)?.sources)));
     let found: Vec<_> =
         records.filter_map(|(cell, sources)| Some((node(cell, &sources, body)?, sources))).collect();
     let nodes: Vec<Node> = found.iter().map(|(node, _)| *node).collect();

@@ -165,7 +165,12 @@ impl Graph {
                 break;
             }
             let image: Vec<f64> = (0..m.len())
-                .map(|a| self.of(a).iter().map(|n| n.conductance * (direction[a] - potential_of(&direction, n))).sum())
+                .map(|a| {
+                    self.of(a)
+                        .iter()
+                        .map(|n| n.conductance * (direction[a] - potential_of(&direction, n)))
+                        .sum()
+                })
                 .collect();
             let step = along / product(&direction, &image);
             for a in 0..m.len() {
@@ -217,7 +222,9 @@ mod tests {
             let at = graph.of(a).iter().position(|n| n.node as usize == b).expect("a neighbour");
             fluxes[graph.range(a)][at]
         };
-        for (found, exact) in [(q(0, 1), 2.0 / 3.0), (q(1, 2), 2.0 / 3.0), (q(0, 5), 1.0 / 3.0), (q(3, 2), 1.0 / 3.0)] {
+        for (found, exact) in
+            [(q(0, 1), 2.0 / 3.0), (q(1, 2), 2.0 / 3.0), (q(0, 5), 1.0 / 3.0), (q(3, 2), 1.0 / 3.0)]
+        {
             assert!((found - exact).abs() < 1.0 / UNITS, "{found} {exact}");
         }
     }

@@ -6,12 +6,12 @@ use super::initial::initial_flow;
 use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::hydrostatic;
 use crate::scene::{
-    BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Motion, Operator, PrecisionChoice,
-    RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
+    BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Motion, Operator,
+    PrecisionChoice, RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
 use crate::setup::{
-    BodyForce, Course, Courses, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion, SurfaceForce, WallRule,
-    YieldTreatment,
+    BodyForce, Course, Courses, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion,
+    SurfaceForce, WallRule, YieldTreatment,
 };
 use crate::units::Units;
 
@@ -118,9 +118,9 @@ fn course(motion: &Motion, units: &Units) -> Course {
             frequency: units.rate_to_lattice(std::f64::consts::TAU * frequency_hz),
             phase: *phase_rad,
         },
-        Motion::Table { points } => {
-            Course::Table(points.iter().map(|[time, factor]| [units.time_to_lattice(*time), *factor]).collect())
-        }
+        Motion::Table { points } => Course::Table(
+            points.iter().map(|[time, factor]| [units.time_to_lattice(*time), *factor]).collect(),
+        ),
     }
 }
 

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::coupled::added_bytes;
-use crate::boundary::hand_over::HandOver;
 pub(crate) use super::text::human;
+use crate::boundary::hand_over::HandOver;
 use crate::scene::{Scene, SurfaceGravity, YieldChoice};
 use crate::setup::{FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
 pub use crate::solver::boundary_cells::boundary_cells;

@@ -26,7 +26,8 @@ pub(super) fn first_leaving(setup: &Setup) -> Option<Leaving> {
     setup.solid_motion.iter().enumerate().find_map(|(solid, motion)| {
         let number = u8::try_from(solid + 1).ok().filter(|_| moves(motion))?;
         let of_solid = (0..setup.cells()).filter(|&cell| setup.solids.get(cell) == Some(&number));
-        let centres = of_solid.map(|cell| setup.coordinates(cell)).filter(|&at| touches_another(setup, at, number));
+        let centres =
+            of_solid.map(|cell| setup.coordinates(cell)).filter(|&at| touches_another(setup, at, number));
         let mut centres = centres.map(|at| at.map(|x| x as f64 + 0.5));
         centres.find(|&at| leaves(setup, motion, at)).map(|at| Leaving { solid, at })
     })

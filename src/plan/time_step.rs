@@ -208,7 +208,9 @@ fn compression_step(facts: &Facts, pool: Option<&Pool>) -> f64 {
 fn duration(scene: &Scene) -> f64 {
     let end = scene.stop.end_time_s;
     match scene.fluid.body_force {
-        Some(BodyForce::Oscillating { frequency_hz, .. }) if frequency_hz * end > 1.0 => least_period(scene, 1.0 / frequency_hz),
+        Some(BodyForce::Oscillating { frequency_hz, .. }) if frequency_hz * end > 1.0 => {
+            least_period(scene, 1.0 / frequency_hz)
+        }
         _ => least_period(scene, end),
     }
 }
@@ -216,12 +218,13 @@ fn duration(scene: &Scene) -> f64 {
 /// The shortest period of a wall or solid, at most `longest`, s.
 fn least_period(scene: &Scene, longest: f64) -> f64 {
     let walls = scene.domain.motion.named().map(|(.., motion)| motion);
-    walls.chain(scene.solids.iter().filter_map(|solid| solid.motion.as_ref())).fold(longest, |least, motion| {
-        match motion {
+    walls.chain(scene.solids.iter().filter_map(|solid| solid.motion.as_ref())).fold(
+        longest,
+        |least, motion| match motion {
             Motion::Oscillating { frequency_hz, .. } if frequency_hz * least > 1.0 => 1.0 / frequency_hz,
             Motion::Oscillating { .. } | Motion::Table { .. } => least,
-        }
-    })
+        },
+    )
 }
 
 /// Units of a scene at a time step.

@@ -100,7 +100,12 @@ impl Scene {
     ) -> SceneBuilder {
         let spacing_m = gap_m / f64::from(cells);
         let walls = Boundaries { z_min: Boundary::NoSlip, z_max: Boundary::NoSlip, ..Boundaries::default() };
-        let domain = Domain { size_m: [spacing_m, spacing_m, gap_m], spacing_m, boundaries: walls, motion: Motions::default() };
+        let domain = Domain {
+            size_m: [spacing_m, spacing_m, gap_m],
+            spacing_m,
+            boundaries: walls,
+            motion: Motions::default(),
+        };
         let force = BodyForce::Constant { force_n_per_m3: [force_n_per_m3, 0.0, 0.0] };
         Self::builder(domain, Fluid { body_force: Some(force), ..fluid }, end_time_s)
     }
@@ -232,7 +237,12 @@ mod tests {
     #[test]
     fn built_scenes_are_what_their_files_say() {
         let ball = Shape::Sphere { centre_m: [0.5; 3], radius_m: 0.2 };
-        let domain = Domain { size_m: [1.0; 3], spacing_m: 0.125, boundaries: Boundaries::default(), motion: Motions::default() };
+        let domain = Domain {
+            size_m: [1.0; 3],
+            spacing_m: 0.125,
+            boundaries: Boundaries::default(),
+            motion: Motions::default(),
+        };
         let scene = Scene::builder(domain, water(), 1.0)
             .gravity(Gravity::down(9.81))
             .solid(Solid::new("ball", ball))

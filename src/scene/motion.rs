@@ -90,7 +90,8 @@ impl Motions {
 
     /// Those that are named, with axis, side and key.
     pub(crate) fn named(&self) -> impl Iterator<Item = (usize, usize, &'static str, &Motion)> {
-        let each = |axis: usize, side: usize| Some((axis, side, FACE_KEYS[axis][side], self.by_axis()[axis][side]?));
+        let each =
+            |axis: usize, side: usize| Some((axis, side, FACE_KEYS[axis][side], self.by_axis()[axis][side]?));
         (0..6).filter_map(move |face| each(face / 2, face % 2))
     }
 }

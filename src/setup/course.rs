@@ -144,7 +144,9 @@ mod tests {
     #[test]
     fn exact_table_is_linear_between_its_points() {
         let table = Course::Table([[2.0, 1.0], [4.0, -3.0], [5.0, 0.0]].into());
-        for (time, factor) in [(0.0, 1.0), (2.0, 1.0), (2.5, 0.0), (4.0, -3.0), (4.5, -1.5), (5.0, 0.0), (9.0, 0.0)] {
+        for (time, factor) in
+            [(0.0, 1.0), (2.0, 1.0), (2.5, 0.0), (4.0, -3.0), (4.5, -1.5), (5.0, 0.0), (9.0, 0.0)]
+        {
             assert_eq!(table.at(time), factor, "{time}");
         }
         assert_eq!(table.most(), 3.0);
@@ -168,7 +170,9 @@ mod tests {
 
     #[test]
     fn limit_tables_that_are_none() {
-        for points in [vec![], vec![[1.0, 0.0], [1.0, 2.0]], vec![[2.0, 0.0], [1.0, 2.0]], vec![[0.0, f64::NAN]]] {
+        for points in
+            [vec![], vec![[1.0, 0.0], [1.0, 2.0]], vec![[2.0, 0.0], [1.0, 2.0]], vec![[0.0, f64::NAN]]]
+        {
             assert!(!Course::Table(points.into()).is_sound());
         }
     }

@@ -70,7 +70,9 @@ pub enum StartError {
         axis: char,
     },
     /// A wall of the box that moves out of its plane.
-    #[error("axis {axis}: a face that moves has {found} cells per step along its normal; allowed: 0, it slides in its plane")]
+    #[error(
+        "axis {axis}: a face that moves has {found} cells per step along its normal; allowed: 0, it slides in its plane"
+    )]
     FaceLeaves {
         /// x, y or z.
         axis: char,

@@ -16,9 +16,7 @@ impl<P, E: Element> Task<'_, P, E> {
     pub(super) fn arm(&self, number: usize, local: usize, i: usize, source: &Source) -> [f64; 3] {
         match source.body().filter(|_| self.setup.loads) {
             None => [0.0; 3],
-            Some(body) => {
-                arm(self.setup, self.layout.cell(self.blocks[number].origin, local), i, body)
-            }
+            Some(body) => arm(self.setup, self.layout.cell(self.blocks[number].origin, local), i, body),
         }
     }
 

@@ -10,8 +10,8 @@ use crate::setup::course::Factors;
 use crate::setup::{FlowPoint, Setup, WallRule, YieldTreatment};
 use crate::solver::cell::{self, Cell};
 use crate::solver::initial::{self, REST, starting_omega};
-use crate::solver::physics::Physics;
 use crate::solver::loads::recorded;
+use crate::solver::physics::Physics;
 use crate::solver::pool;
 use crate::solver::run::{Load, StartError, Stopped};
 

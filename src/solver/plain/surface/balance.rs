@@ -9,8 +9,8 @@ use crate::lattice::moments::{density_excess, momentum};
 use crate::lattice::{Q, opposite};
 use crate::solver::books::{CellEntries, Crossing, Entries};
 use crate::solver::cell::Cell;
-use crate::solver::physics::Physics;
 use crate::solver::loads::arm;
+use crate::solver::physics::Physics;
 use crate::solver::plain::run::PlainRun;
 use crate::solver::run::{Ledger, Runaway, Stopped};
 

@@ -40,9 +40,9 @@ fn ring_mass(backend: &dyn Backend, turns: f64) -> Result<Sample, VerifyError> {
     let change = run.totals().mass_excess / run.fluid_cells() as f64;
     let fields = run.fields();
     let fluid = (0..setup.cells()).filter(|&cell| !setup.is_solid(cell));
-    let (least, most) = fluid.map(|cell| fields.density[cell]).fold((f64::INFINITY, 0.0), |(least, most), rho| {
-        (f64::min(least, rho), f64::max(most, rho))
-    });
+    let (least, most) = fluid
+        .map(|cell| fields.density[cell])
+        .fold((f64::INFINITY, 0.0), |(least, most), rho| (f64::min(least, rho), f64::max(most, rho)));
     Ok(Sample::absolute(turns, change, 0.0)
         .with("largest − least density", most - least)
         .with("fluid cells", run.fluid_cells() as f64))
@@ -140,8 +140,7 @@ fn torque(backend: &dyn Backend, outer: f64) -> Result<Sample, VerifyError> {
     let gap = outer - inner;
     run.advance((30.0 * gap * gap / (std::f64::consts::PI * std::f64::consts::PI * mu)) as u64)?;
     let loads = run.loads();
-    let exact =
-        TaylorCouette { inner_radius: inner, outer_radius: outer, inner_rate: spin, outer_rate: 0.0 };
+    let exact = TaylorCouette { inner_radius: inner, outer_radius: outer, inner_rate: spin, outer_rate: 0.0 };
     let on = |solid: usize| loads.get(solid).map_or(f64::NAN, |load| load.torque[2]);
     let sideways = loads.first().map_or(f64::NAN, |load| load.force[0]);
     Ok(Sample::relative(outer, on(1), exact.torque_per_length(mu))
@@ -155,7 +154,10 @@ pub const TORQUE: Claim = Claim {
     title: "The torque between turning cylinders is 4πμB, as near as stairs allow",
     tags: &["C7", "B1"],
     measures: "torque on the outer cylinder by momentum exchange, R₁ = R₂/2, TRT, τ = 1",
-    reference: Reference { source: "4πμ (Ω₁ − Ω₂) R₁²R₂²/(R₂² − R₁²); Landau & Lifshitz §18", uncertainty: 0.0 },
+    reference: Reference {
+        source: "4πμ (Ω₁ − Ω₂) R₁²R₂²/(R₂² − R₁²); Landau & Lifshitz §18",
+        uncertainty: 0.0,
+    },
     metric: Metric::Relative,
     ladder: Ladder {
         parameter: "R₂ (cells)",

@@ -33,9 +33,8 @@ fn measure(backend: &dyn Backend, cells: f64) -> Result<Sample, VerifyError> {
     setup.courses.faces[1][0] = Course::Oscillating { mean: 0.0, amplitude: 1.0, frequency, phase: 0.0 };
     let height = move |y: f64| y + 0.5 * cells;
     // From the exact flow at t = 0, so that no transient of the size of the flow has to decay.
-    let slope = move |y: f64| {
-        (exact.velocity(height(y) + 0.25, 0.0) - exact.velocity(height(y) - 0.25, 0.0)) / 0.5
-    };
+    let slope =
+        move |y: f64| (exact.velocity(height(y) + 0.25, 0.0) - exact.velocity(height(y) - 0.25, 0.0)) / 0.5;
     setup.initial = Some(starting_profile(n, move |y| exact.velocity(height(y), 0.0), slope));
     let mut run = backend.start(&setup)?;
     run.advance(period as u64)?;
