@@ -214,13 +214,13 @@ fn run(
 
 /// How a run went, in a line.
 fn done(planned: &Planned, finished: &Finished) -> String {
-    let residual = finished.residual.map_or_else(String::new, |r| format!(", residual {r:.2e}"));
+    let found = finished.steadiness.map_or_else(String::new, |found| format!(", {found}"));
     let updates = match planned {
         Planned::Flow(..) => "updates",
         Planned::Dry(..) => "sphere updates",
     };
     format!(
-        "done: {} steps, {:.6} s ({}{residual}), {:.1} s of computing, {:.2} million {updates} per second",
+        "done: {} steps, {:.6} s ({}{found}), {:.1} s of computing, {:.2} million {updates} per second",
         finished.steps,
         finished.time_s,
         finished.ended.words(),

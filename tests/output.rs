@@ -159,6 +159,7 @@ fn summary(ended: Ended, parts: Parts) -> Summary {
         wall_seconds: 1.5,
         million_updates_per_second: f64::INFINITY,
         parts,
+        not_steady: None,
         stopped: (ended == Ended::Stopped).then(|| "a guard".to_owned()),
     }
 }

@@ -10,6 +10,7 @@ use super::stop::StopReport;
 use super::summary::{Ended, Parts, Summary};
 use crate::output::OutputError;
 use crate::output::progress::Progress;
+use crate::solver::steady::SteadyOutcome;
 
 /// What a run moves: a fluid, grains, or both.
 pub(super) trait Experiment {
@@ -45,9 +46,18 @@ pub(super) trait Experiment {
     /// Prepares the state to be measured, after steps were taken.
     fn look(&mut self) {}
 
-    /// Largest change of velocity since the last call over the largest speed; `None` at the first one, and where nothing
-    /// can be steady.
-    fn change(&mut self) -> Option<f64> {
+    /// Step at which the next look for steadiness is due; never where none was asked for.
+    fn next_look(&self) -> u64 {
+        u64::MAX
+    }
+
+    /// Looks, if that is due, whether the flow is steady.
+    fn is_steady(&mut self) -> bool {
+        false
+    }
+
+    /// What the looks found; `None` where none were asked for.
+    fn steadiness(&self) -> Option<SteadyOutcome> {
         None
     }
 
@@ -107,8 +117,8 @@ pub struct Finished {
     pub time_s: f64,
     /// Why it ended.
     pub ended: Ended,
-    /// Residual of the last steadiness check; `None` if there was none.
-    pub residual: Option<f64>,
+    /// What looking for steadiness found; `None` where that was not asked for.
+    pub steadiness: Option<SteadyOutcome>,
     /// Wall-clock time of the stepping, s.
     pub wall_seconds: f64,
     /// Million updates per second, of cells, or of spheres without fluid.
@@ -125,16 +135,8 @@ pub(super) fn drive(
     order: Order,
     progress: &Progress,
 ) -> Result<Finished, RunError> {
-    let mut driver = Driver {
-        experiment,
-        recorder,
-        order,
-        progress,
-        stepping: 0.0,
-        updates: 0.0,
-        residual: None,
-        at_rest_since: None,
-    };
+    let mut driver =
+        Driver { experiment, recorder, order, progress, stepping: 0.0, updates: 0.0, at_rest_since: None };
     let result = driver.drive();
     progress.finish();
     result
@@ -149,8 +151,6 @@ struct Driver<'a> {
     stepping: f64,
     /// Updates so far; the number of fluid cells changes with a free surface.
     updates: f64,
-    /// Of the last steadiness check.
-    residual: Option<f64>,
     /// Time of the first of the latest unbroken row of checks that found everything at rest, s.
     at_rest_since: Option<f64>,
 }
@@ -162,7 +162,8 @@ impl Driver<'_> {
         self.recorder.write_series()?;
         self.experiment.write_grains()?;
         let ended = loop {
-            self.advance(self.order.schedule.next(self.experiment.step()))?;
+            let due = self.order.schedule.next(self.experiment.step());
+            self.advance(due.min(self.experiment.next_look()))?;
             self.experiment.look();
             let ended = self.ended();
             self.outputs(ended.is_some())?;
@@ -208,7 +209,7 @@ impl Driver<'_> {
     /// Whether the run is over, and why.
     fn ended(&mut self) -> Option<Ended> {
         let now = self.experiment.step();
-        let steady = self.order.schedule.steady.take_if_due(now) && self.is_steady();
+        let steady = self.experiment.is_steady();
         let at_rest = self.order.schedule.arrested.take_if_due(now) && self.is_at_rest();
         if steady {
             Some(Ended::Steady)
@@ -219,12 +220,6 @@ impl Driver<'_> {
         } else {
             (now >= self.order.schedule.end).then_some(Ended::EndTime)
         }
-    }
-
-    fn is_steady(&mut self) -> bool {
-        let tolerance = self.order.cadences.steady.map_or(0.0, |steady| steady.tolerance);
-        self.residual = self.experiment.change();
-        self.residual.is_some_and(|residual| residual <= tolerance)
     }
 
     /// Whether every check of the last `for_s` found everything slower than the limit.
@@ -264,7 +259,9 @@ impl Driver<'_> {
     }
 
     fn line(&self) -> String {
-        let residual = self.residual.map_or_else(String::new, |r| format!(", residual {r:.2e}"));
+        let residual = self.experiment.steadiness().filter(|found| found.residual.is_finite());
+        let residual =
+            residual.map_or_else(String::new, |found| format!(", residual {:.2e}", found.residual));
         format!(
             "step {} of {}, {:.6} s, {}{residual}",
             self.experiment.step(),
@@ -280,7 +277,7 @@ impl Driver<'_> {
             steps: self.experiment.step(),
             time_s: self.experiment.time_s(),
             ended,
-            residual: self.residual,
+            steadiness: self.experiment.steadiness(),
             wall_seconds: self.stepping,
             million_updates_per_second: rate,
         }
@@ -299,6 +296,7 @@ impl Driver<'_> {
             wall_seconds: finished.wall_seconds,
             million_updates_per_second: finished.million_updates_per_second,
             parts: self.experiment.parts(),
+            not_steady: finished.steadiness.filter(|found| !found.steady).map(|found| found.to_string()),
             stopped,
         };
         summary.write(&self.recorder.path("summary.json"))

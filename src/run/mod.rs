@@ -83,6 +83,7 @@ fn flow(
         cadences,
     };
     let mut flow = Flow::start(scene, plan, options.backend, threads, recorder)?;
+    flow.watch(end);
     let progress = Progress::new(&plan.numbers.title, end, options.quiet);
     driver::drive(&mut flow, recorder, order, &progress)
 }

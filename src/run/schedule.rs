@@ -1,7 +1,7 @@
 //! When something is due, in steps.
 
 use crate::scene::dry::DryScene;
-use crate::scene::{Arrested, Cadence, Scene, Steady};
+use crate::scene::{Arrested, Cadence, Scene};
 use crate::units::Units;
 
 /// Rows of the time series when the scene does not say.
@@ -21,8 +21,6 @@ pub(super) struct Cadences {
     pub files: Option<Cadence>,
     /// Files of grains in a fluid; with the others when not given.
     pub grains: Option<Cadence>,
-    /// When a run counts as steady.
-    pub steady: Option<Steady>,
     /// When a run counts as at rest.
     pub arrested: Option<Arrested>,
 }
@@ -31,13 +29,7 @@ impl Cadences {
     /// Of a scene with fluid.
     pub(crate) fn of_flow(scene: &Scene) -> Self {
         let (output, stop) = (&scene.output, &scene.stop);
-        Self {
-            series: output.series,
-            files: output.fields,
-            grains: output.grains,
-            steady: stop.steady,
-            arrested: stop.arrested,
-        }
+        Self { series: output.series, files: output.fields, grains: output.grains, arrested: stop.arrested }
     }
 
     /// Of a scene without fluid.
@@ -54,7 +46,6 @@ pub(super) struct Schedule {
     pub series: Ticker,
     pub files: Ticker,
     pub grains: Ticker,
-    pub steady: Ticker,
     pub arrested: Ticker,
     /// Whether grains have no cadence of their own.
     grains_with_files: bool,
@@ -82,7 +73,6 @@ impl Schedule {
             series: ticker(Some(cadences.series.unwrap_or(Cadence::Count(DEFAULT_ROWS)))),
             files: ticker(cadences.files),
             grains: ticker(cadences.grains),
-            steady: every(cadences.steady.map(|rule| rule.check_every_s)),
             arrested: every(cadences.arrested.map(|rule| rule.check_every_s)),
             grains_with_files: cadences.grains.is_none(),
         }
@@ -90,9 +80,8 @@ impl Schedule {
 
     /// The next step after `now` at which anything is due.
     pub(crate) fn next(&self, now: u64) -> u64 {
-        let checks = self.steady.next().min(self.arrested.next());
         let files = self.files.next().min(self.grains.next());
-        let next = files.min(self.series.next()).min(checks);
+        let next = files.min(self.series.next()).min(self.arrested.next());
         next.clamp(now + 1, self.end.max(now + 1))
     }
 

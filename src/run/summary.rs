@@ -68,6 +68,9 @@ pub struct Summary {
     /// What was moved.
     #[serde(flatten)]
     pub parts: Parts,
+    /// What still changed at the end of a run that was to become steady and did not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub not_steady: Option<String>,
     /// Why a guard stopped the run, if one did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,

@@ -203,12 +203,14 @@ pub struct Arrested {
     pub check_every_s: f64,
 }
 
-/// Steady when the largest change of velocity over one check interval, divided by the largest
-/// speed, is below the tolerance.
+/// Steady when at two checks in a row the largest change of velocity over one check interval, divided by the largest speed,
+/// is below the tolerance, and so is the change that is still to come if it goes on decaying as it did, while the momentum
+/// changes by less than that share of the body force, and when no look in between, at each of 24 successive steps and
+/// at halves of the interval, differs by more than the tolerance. A run that ends before that says what still changes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Steady {
-    /// Largest relative change, no unit.
+    /// Largest relative change, now and still to come, no unit.
     pub tolerance: f64,
     /// Time between checks, s.
     pub check_every_s: f64,

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use lahar::output::number;
 use lahar::solver::run::{Backend, StartError, Stopped};
+use lahar::solver::steady::SteadyOutcome;
 
 /// One checkable statement.
 #[derive(Clone, Copy, Debug)]
@@ -223,11 +224,18 @@ pub enum VerifyError {
     #[error("{what} did not work out: {detail}")]
     Numerics { what: &'static str, detail: String },
     /// The run did not become steady.
-    #[error("not steady after {steps} steps: residual {residual:.2e} > {wanted:.0e}")]
-    NotSteady { steps: u64, residual: f64, wanted: f64 },
+    #[error("after {steps} steps, with a tolerance of {wanted:.0e}: {found}")]
+    NotSteady { steps: u64, wanted: f64, found: String },
     /// Grains were refused, or a guard stopped them.
     #[error("grains: {0}")]
     Grains(#[from] lahar::dem::DemError),
+}
+
+impl VerifyError {
+    /// Of an attempt that ended too early.
+    pub fn not_steady(outcome: &SteadyOutcome, wanted: f64) -> Self {
+        Self::NotSteady { steps: outcome.steps, wanted, found: outcome.to_string() }
+    }
 }
 
 impl From<Stopped> for VerifyError {

@@ -47,7 +47,7 @@ fn never(_: &dyn Backend, _: f64) -> Result<Sample, VerifyError> {
 }
 
 fn unsettled(_: &dyn Backend, _: f64) -> Result<Sample, VerifyError> {
-    Err(VerifyError::NotSteady { steps: 10, residual: 1.0, wanted: 0.1 })
+    Err(VerifyError::NotSteady { steps: 10, wanted: 0.1, found: "not steady".to_owned() })
 }
 
 fn unstartable(backend: &dyn Backend, n: f64) -> Result<Sample, VerifyError> {

@@ -20,7 +20,7 @@ use crate::output::OutputError;
 use crate::plan::Plan;
 use crate::scene::Scene;
 use crate::solver::run::{Backend, Fields, Run};
-use crate::solver::steady::residual;
+use crate::solver::steady::{SteadyOutcome, Watch, push};
 use files::{Files, Shot};
 use grains::InFluid;
 use pictures::Plots;
@@ -45,8 +45,8 @@ pub(super) struct Flow<'a> {
     every_step: bool,
     /// Mass excess at time 0, lattice units.
     mass_at_start: f64,
-    /// Velocities at the last check for steadiness.
-    last_check: Option<Vec<[f64; 3]>>,
+    /// Looks for steadiness, where the scene asks for it.
+    watch: Option<Watch>,
 }
 
 impl<'a> Flow<'a> {
@@ -74,13 +74,24 @@ impl<'a> Flow<'a> {
             mass_at_start: run.totals().mass_excess,
             frame: Frame::new(scene, plan.units),
             files: Files::new(&plan.setup, &recorder.path("")),
-            last_check: None,
+            watch: None,
             scene,
             plan,
             run,
             probes,
             grains,
         })
+    }
+
+    /// Looks for steadiness from now to the step `end` if the scene asks for it.
+    pub(crate) fn watch(&mut self, end: u64) {
+        let watch = self.scene.stop.steady.map(|rule| {
+            let interval = self.plan.units.time_to_lattice(rule.check_every_s);
+            Watch::new(rule.tolerance, interval, self.run.step(), end)
+        });
+        self.watch = watch;
+        // The first look is at the start.
+        self.is_steady();
     }
 
     fn opens(&self) -> bool {
@@ -139,9 +150,18 @@ impl Experiment for Flow<'_> {
         self.fields = self.run.fields();
     }
 
-    fn change(&mut self) -> Option<f64> {
-        let before = self.last_check.replace(self.fields.velocity.clone());
-        before.map(|before| residual(&before, &self.fields.velocity))
+    fn next_look(&self) -> u64 {
+        self.watch.as_ref().map_or(u64::MAX, Watch::next)
+    }
+
+    fn is_steady(&mut self) -> bool {
+        let step = self.run.step();
+        let Some(watch) = &mut self.watch else { return false };
+        watch.next() == step && watch.look(step, &self.fields, push(self.run.as_ref()))
+    }
+
+    fn steadiness(&self) -> Option<SteadyOutcome> {
+        self.watch.as_ref().map(Watch::outcome)
     }
 
     /// Of fluid and grains; each cell's times its fill.

@@ -86,8 +86,7 @@ impl Sheet {
         let mut run = backend.start(&self.setup())?;
         let outcome = run_to_steady(run.as_mut(), rule)?;
         if !outcome.steady {
-            let (steps, residual, wanted) = (outcome.steps, outcome.residual, rule.tolerance);
-            return Err(VerifyError::NotSteady { steps, residual, wanted });
+            return Err(VerifyError::not_steady(&outcome, rule.tolerance));
         }
         Ok(flow(run.as_ref()))
     }

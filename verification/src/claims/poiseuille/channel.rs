@@ -328,7 +328,7 @@ impl Steady {
     }
 }
 
-/// Runs until the velocity changes by less than `tolerance` over `interval` steps.
+/// Runs until the velocity changes by less than `tolerance` over `interval` steps and has less than that still to change.
 pub fn run_steady(
     backend: &dyn Backend,
     setup: &Setup,
@@ -339,15 +339,12 @@ pub fn run_steady(
     let mut run = backend.start(setup)?;
     let outcome = run_to_steady(&mut *run, SteadyRule { tolerance, interval, max_steps })?;
     if !outcome.steady {
-        let (steps, residual) = (outcome.steps, outcome.residual);
-        return Err(VerifyError::NotSteady { steps, residual, wanted: tolerance });
+        return Err(VerifyError::not_steady(&outcome, tolerance));
     }
     Ok(Steady { fields: run.fields(), steps: outcome.steps })
 }
 
-/// Runs a column until it changes by less than `tolerance` over a fifth of its relaxation time.
-///
-/// What is left of the transient is then at most five times the tolerance.
+/// Runs a column until it changes by less than `tolerance` over a fifth of its relaxation time, and is to change by no more.
 pub fn steady_column(backend: &dyn Backend, column: &Column, tolerance: f64) -> Result<Steady, VerifyError> {
     steady_from(backend, column, &column.developed()?, tolerance)
 }

@@ -75,7 +75,7 @@ pub fn steady(
     let rule = SteadyRule { tolerance: wanted, interval, max_steps: 60_000 * cells as u64 };
     let outcome = run_to_steady(&mut *run, rule)?;
     if !outcome.steady && outcome.residual > 1e-12 {
-        return Err(VerifyError::NotSteady { steps: outcome.steps, residual: outcome.residual, wanted });
+        return Err(VerifyError::not_steady(&outcome, wanted));
     }
     let fields = run.fields();
     let (mu, thick) = (viscosity(tau), viscosity(THICK));

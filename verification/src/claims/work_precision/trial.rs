@@ -53,5 +53,5 @@ pub(super) fn put(scheme: Scheme, plastic: f64, setup: &mut Setup) {
 
 /// The budget does not suffice.
 pub(super) fn over(steps: u64) -> VerifyError {
-    VerifyError::NotSteady { steps, residual: f64::NAN, wanted: 0.0 }
+    VerifyError::NotSteady { steps, wanted: 0.0, found: "the budget is used up".to_owned() }
 }
