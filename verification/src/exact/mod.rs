@@ -6,6 +6,7 @@
 
 pub mod abc;
 mod complex;
+pub mod annulus;
 pub mod couette;
 pub mod dam_break;
 pub mod discrete_modes;
@@ -28,6 +29,7 @@ pub mod suspension;
 pub mod taylor_couette;
 pub mod taylor_green;
 pub mod thin_layer;
+pub mod turning_cylinders;
 pub mod viscoplastic_1d;
 pub mod womersley;
 
