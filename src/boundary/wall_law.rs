@@ -4,14 +4,14 @@ use crate::lane::Lane;
 use crate::rheology::Flow;
 use crate::rheology::relaxation::omega_of_shear_rate;
 
-/// What the law by stress needs of a wall cell, along the driving force f = |(F − ∇p)_t|; lattice units.
+/// What the law by stress needs of a wall cell, along the traction; lattice units.
 #[derive(Clone, Copy, Debug)]
 pub struct WallStress<L = f64> {
     /// Shear stress σ_c of the cell on planes parallel to the wall.
     pub cell: L,
-    /// Traction T that a half-way wall would take.
+    /// Traction T ≥ 0 that a half-way wall would take.
     pub traction: L,
-    /// f > 0; cells without a driving force have no slip.
+    /// f, the part of F − ∇p along it.
     pub force: L,
     /// Slip that the link correction takes away.
     pub floor: L,
@@ -60,7 +60,7 @@ impl<F, O> Fluid<F, O> {
     }
 }
 
-/// The slip u_s along the driving force.
+/// The slip u_s along the traction.
 ///
 /// For the wall stress s it solves s + (ρ/3) (S₁(s) + S₂ + m (s − σ_c − f/2) + u_f) = T, u_f the floor part; S₁ is what
 /// the integral of γ̇ over the half cell at the wall has more than the scheme's half step, S₂ what its trapezoid

@@ -6,25 +6,36 @@ use crate::lattice::moments::density_excess;
 use crate::lattice::unroll::{directions, six};
 use crate::lattice::{CS2, Q, W};
 
-/// f (1/(8μ) − κ/ρ), at most 3T/ρ: the slip \[B3\] of a fluid whose viscosity is the same everywhere.
+/// f (1/(8μ) − κ/ρ), at least 0 and at most 3T/ρ: the slip \[B3\] of a fluid whose viscosity is the same everywhere.
 ///
 /// f/(8μ) = |u″|/8 is what the curvature of the velocity profile adds over the half cell between node and wall, fκ/ρ
 /// what the odd departure carries of it. For such a fluid the law by stress ([`super::wall_law::slip`]) is this in closed
 /// form, since Γ = σ²/(2μ).
 ///
+/// f is the less of two that are the same in steady flow: F − ∇p, and 2 (s − σ_c), by which the stress rises over the
+/// cell if s = T − ρ (u_s + u_f)/3 is that of the wall. The first leaves inertia out, so that at small τ⁺, where 1/(8μ)
+/// is large, a wave of pressure along the wall would drive it; the second is not zero in waves of fluid at rest.
+///
 /// # Arguments
 /// `wall`: the cell. `fluidity`: 1/μ.
 /// # Returns
-/// The slip along the driving force, lattice units.
+/// The slip along the traction, lattice units.
 /// # Source
 /// docs/method.md \[B3\].
 /// # Verified by
-/// Claims `poiseuille-newtonian-b3`, `poiseuille-newtonian-b3-large-tau`.
+/// Claims `poiseuille-newtonian-b3`, `poiseuille-newtonian-b3-large-tau`, `duct-waves-die`; mutant
+/// `wall-slip-by-pressure`.
 #[inline(always)]
 pub fn newtonian_slip<L: Lane>(wall: &WallStress<L>, fluidity: L) -> L {
-    let slip = wall.force * (L::splat(0.125) * fluidity - wall.local / wall.rho);
-    let most = L::splat(3.0) * L::larger(wall.traction, L::zero()) / wall.rho;
-    L::smaller(slip, most)
+    let zero = L::zero();
+    let third = L::splat(1.0 / 3.0) * wall.rho;
+    let share = L::splat(0.125) * fluidity - wall.local / wall.rho;
+    let twice = L::splat(2.0) * share;
+    let rise = wall.traction - third * wall.floor - wall.cell;
+    let by_stress = (twice * rise) / (L::one() + twice * third);
+    let slip = L::smaller(by_stress, share * wall.force);
+    let most = wall.traction / third;
+    L::smaller(L::larger(slip, zero), L::larger(most, zero))
 }
 
 /// How much of the curvature term the odd departure of the cell carries: min(3/(8(τ⁺ − ½)), 2(τ⁻ − ½)).

@@ -119,7 +119,7 @@ pub(crate) fn wall_correction<L: Lane, P: Physics>(
     correction
 }
 
-/// The slip of a flat wall, along the driving force (F − ∇p)_t \[B3\]. `excess`: by link, what the link correction
+/// The slip of a flat wall, along the traction \[B3\]. `excess`: by link, what the link correction
 /// takes away.
 #[inline(always)]
 fn slip_velocity<L: Lane, P: Physics>(
@@ -131,23 +131,24 @@ fn slip_velocity<L: Lane, P: Physics>(
     excess: &[L; Q],
 ) -> [L; 3] {
     let (rho, omega) = (state.m.rho, state.omega);
-    let driving = flat.tangential(&situation.residual);
-    let force = (driving[0] * driving[0] + driving[1] * driving[1]).sqrt();
-    let acts = L::zero().less(force);
-    let safe = L::select(acts, force, L::one());
-    let e = [driving[0] / safe, driving[1] / safe];
-    let along = |v: [L; 2]| e[0] * v[0] + e[1] * v[1];
     let mut post = physics.collide(h, &state.m, omega);
     if situation.sourced {
         add_stress_source(physics, &mut post, state, &situation.residual);
     }
-    let impulse = along(flat.first_moment(&post));
-    let drag = along(flat.tangential(&situation.drag));
+    let impulse = flat.first_moment(&post);
+    let drag = flat.tangential(&situation.drag);
+    let two = L::splat(2.0);
+    let traction = [two * impulse[0] - rho * drag[0], two * impulse[1] - rho * drag[1]];
+    let size = (traction[0] * traction[0] + traction[1] * traction[1]).sqrt();
+    let acts = L::zero().less(size);
+    let safe = L::select(acts, size, L::one());
+    let e = [traction[0] / safe, traction[1] / safe];
+    let along = |v: [L; 2]| e[0] * v[0] + e[1] * v[1];
     let stress = along(flat.traction(&deviator(&state.m.q)));
     let wall = WallStress {
         cell: (L::one() - L::splat(0.5) * omega) * stress,
-        traction: L::splat(2.0) * impulse - rho * drag,
-        force,
+        traction: size,
+        force: along(flat.tangential(&situation.residual)),
         floor: L::splat(3.0) / rho * along(flat.first_moment(excess)),
         local: local_curvature(omega, physics.odd_omega(omega)),
         rho,

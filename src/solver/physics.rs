@@ -61,7 +61,7 @@ pub trait Physics: Clone + Send + Sync + 'static {
     /// Odd non-equilibrium that relaxes with ω⁻ \[B3\].
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q];
 
-    /// Slip of a flat wall along the driving force \[B3\].
+    /// Slip of a flat wall along the traction \[B3\].
     fn slip<L: Lane>(&self, fluid: u8, wall: &WallStress<L>) -> L;
 }
 

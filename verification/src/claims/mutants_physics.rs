@@ -44,6 +44,8 @@ pub enum Mistake {
     ApparentViscosityAtWall,
     /// \[B3\] as it was until the law by stress: the slip follows the cell's own stress, explicitly.
     ExplicitWallSlip,
+    /// \[B3\] with F − ∇p for the stress gradient of a Newtonian fluid.
+    PressureDrivenSlip,
     /// 000 Eq 12: masses for fills in the wetted share.
     ExchangeOfMasses,
     /// 004 Eq 3.31: half the difference of the fills.
@@ -194,6 +196,10 @@ impl Physics for Wrong {
                 let law = &self.right.laws[usize::from(fluid)];
                 let tangent = L::select(flowing, L::one() / law.tangent_viscosity(safe), L::zero());
                 wall.force * (L::splat(0.125) * tangent - wall.local / wall.rho)
+            }
+            Mistake::PressureDrivenSlip => {
+                let slip = wall.force * (L::splat(0.125) * apparent - wall.local / wall.rho);
+                L::smaller(slip, L::splat(3.0) * wall.traction / wall.rho)
             }
             _ => self.right.slip(fluid, wall),
         }

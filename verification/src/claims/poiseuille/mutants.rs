@@ -130,6 +130,14 @@ pub const MUTANTS: &[Mutant] = &[
         rung: Some(16.0),
         subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ExplicitWallSlip))),
     },
+    Mutant {
+        id: "wall-slip-by-pressure",
+        erratum: "design [B3]",
+        description: "The wall's slip answers F − ∇p of the moment: waves along the wall outrun the lattice.",
+        caught_by: "duct-waves-die",
+        rung: Some(8.0),
+        subject: Subject::Backend(|| Box::new(Mistaken(Mistake::PressureDrivenSlip))),
+    },
 ];
 
 /// The measurement of `poiseuille-newtonian-bgk-slip` with walls on the first and last node: what
