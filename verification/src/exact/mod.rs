@@ -5,8 +5,8 @@
 //! volume in SI, or all of them in lattice units. A [`lahar::rheology::Law`] holds dynamic values.
 
 pub mod abc;
-mod complex;
 pub mod annulus;
+mod complex;
 pub mod couette;
 pub mod dam_break;
 pub mod discrete_modes;
