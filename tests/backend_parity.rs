@@ -8,6 +8,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use lahar::boundary::cut::cut_cells;
 use lahar::collision::{CollisionChoice, OddRate};
 use lahar::coupling::{GrainWall, Suspension};
 use lahar::dem::{self, Grain, Material, Materials, PairProperties, Period, Surface, V3, Wall};
@@ -200,6 +201,16 @@ fn build((faces, (surface, (extents, seed), laws, scheme)): Recipe) -> Setup {
         setup.solid_motion =
             vec![SolidMotion { velocity: [0.0; 3], spin: [1e-4, 0.0, -2e-4], centre: [3.0, 2.0, 1.0] }];
         setup.loads = true;
+        if seed.is_multiple_of(2) && seed % 7 >= 2 {
+            // Each solid cell holds a block of its own size about its centre.
+            let inside = |p: [f64; 3]| {
+                let at = std::array::from_fn(|a| (p[a].floor() as usize).min(extents[a] - 1));
+                let cell = setup.index(at);
+                let half = 0.02 + 0.46 * noise(cell, seed ^ 9);
+                setup.is_solid(cell) && (0..3).all(|a| (p[a] - at[a] as f64 - 0.5).abs() < half)
+            };
+            setup.cuts = cut_cells(&setup, inside).into();
+        }
     }
     if seed % 7 < 2 {
         let swing = Course::Oscillating { mean: 0.2, amplitude: 0.9, frequency: 0.4, phase: 1.0 };

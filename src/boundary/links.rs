@@ -56,6 +56,8 @@ pub(crate) struct BoundaryCell {
     pub touches_wall: bool,
     /// Bit i: the link along c_i hits a wall or solid.
     pub walls: u32,
+    /// Its place in [`Setup::cuts`], where it has links that are not half-way.
+    pub cut: Option<u32>,
 }
 
 /// What a cell is for streaming.
@@ -231,12 +233,19 @@ pub(crate) fn boundary_cell(setup: &Setup, cell: usize) -> Option<BoundaryCell> 
 /// As [`boundary_cell`], at a time at which the velocities have these factors.
 pub(crate) fn boundary_cell_at(setup: &Setup, factors: &Factors, cell: usize) -> Option<BoundaryCell> {
     let at = setup.coordinates(cell);
+    let cut = setup.cuts.binary_search_by_key(&(cell as u32), |cut| cut.cell).ok();
     let mut sources = [Source::Cell { cell: cell as u32, direction: 0 }; Q];
     let mut ordinary = true;
     let mut drag = [0.0; 3];
     let mut walls = 0;
     for i in 1..Q {
-        let (source, plain) = resolve_at(setup, factors, at, i);
+        let (mut source, plain) = resolve_at(setup, factors, at, i);
+        if let (Some(cut), Source::Wall { velocity, body }) = (cut, &mut source)
+            && *body > 0
+        {
+            let there = solid_velocity(setup, at, i, *body, setup.cuts[cut].shares[opposite(i)]);
+            *velocity = scaled(there, factors.solid(*body));
+        }
         sources[i] = source;
         ordinary &= plain;
         if let Source::Wall { velocity, .. } = source {
@@ -252,10 +261,11 @@ pub(crate) fn boundary_cell_at(setup: &Setup, factors: &Factors, cell: usize) ->
     (!ordinary).then(|| BoundaryCell {
         cell: cell as u32,
         sources,
-        flat: FlatWall::of(walls),
+        flat: FlatWall::of(walls).filter(|_| cut.is_none()),
         drag,
         touches_wall: walls != 0,
         walls,
+        cut: cut.map(|place| place as u32),
     })
 }
 
@@ -307,7 +317,7 @@ fn resolve_at(setup: &Setup, factors: &Factors, at: [usize; 3], i: usize) -> (So
     let cell = setup.index(upstream);
     if setup.is_solid(cell) {
         let body = setup.solids[cell];
-        let velocity = scaled(solid_velocity(setup, at, i, cell), factors.solid(body));
+        let velocity = scaled(solid_velocity(setup, at, i, body, 0.5), factors.solid(body));
         return (Source::Wall { velocity, body }, false);
     }
     let direction = direction(c).unwrap_or(0) as u8;
@@ -324,11 +334,11 @@ fn add(wall: Option<[f64; 3]>, u: [f64; 3]) -> [f64; 3] {
     [v[0] + u[0], v[1] + u[1], v[2] + u[2]]
 }
 
-/// Velocity of a solid's surface at the middle of the link from the cell towards −c_i.
-fn solid_velocity(setup: &Setup, at: [usize; 3], i: usize, cell: usize) -> [f64; 3] {
-    let number = usize::from(setup.solids[cell]);
-    let Some(motion) = setup.solid_motion.get(number - 1) else { return [0.0; 3] };
+/// Velocity of a solid's surface on the link from the cell towards −c_i, this share of it away.
+fn solid_velocity(setup: &Setup, at: [usize; 3], i: usize, body: u8, share: f64) -> [f64; 3] {
+    let Some(motion) = setup.solid_motion.get(usize::from(body) - 1) else { return [0.0; 3] };
     let towards = C[opposite(i)];
-    let arm = std::array::from_fn(|a| (at[a] as f64 + 0.5 + 0.5 * f64::from(towards[a])) - motion.centre[a]);
+    let arm =
+        std::array::from_fn(|a| (at[a] as f64 + 0.5 + share * f64::from(towards[a])) - motion.centre[a]);
     surface_velocity(motion.velocity, motion.spin, arm)
 }

@@ -1,6 +1,7 @@
 //! Walls and mirror planes: where each population that arrives in a cell comes from.
 
 pub mod bounce_back;
+pub mod cut;
 pub mod flat_wall;
 pub(crate) mod hand_over;
 pub mod links;

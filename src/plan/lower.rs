@@ -3,11 +3,12 @@
 use super::cells::Cells;
 use super::facts::Facts;
 use super::initial::initial_flow;
+use crate::boundary::cut::cut_cells;
 use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::hydrostatic;
 use crate::scene::{
     BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Motion, Operator,
-    PrecisionChoice, RefillChoice, Scene, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
+    PrecisionChoice, RefillChoice, Scene, SolidSurface, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
 use crate::setup::{
     BodyForce, Course, Courses, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion,
@@ -37,6 +38,9 @@ pub(crate) fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
     setup.fluid_of_cell = cells.fluid_of_cell;
     setup.solid_motion = solid_motion(scene, units);
     setup.courses = courses(scene, units);
+    if scene.numerics.solid_surface == SolidSurface::CentralLinear {
+        setup.cuts = cut_cells(&setup, in_solids(scene)).into();
+    }
     setup.yielding = yield_treatment(&scene.numerics.yield_treatment, units);
     setup.collision = collision(facts);
     setup.wall_rule = match scene.numerics.wall_rule {
@@ -50,6 +54,12 @@ pub(crate) fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
         PrecisionChoice::SingleStorage => Precision::SingleStorage,
     };
     setup
+}
+
+/// Whether a point, in cells, lies in a solid of the scene: as the cells are painted.
+fn in_solids(scene: &Scene) -> impl Fn([f64; 3]) -> bool {
+    let dx = scene.domain.spacing_m;
+    move |point| scene.solids.iter().any(|solid| solid.shape.contains(point.map(|x| x * dx)) != solid.invert)
 }
 
 /// The rules of the surface with defaults filled in.

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::coupled::added_bytes;
 pub(crate) use super::text::human;
 use crate::boundary::hand_over::HandOver;
+use crate::boundary::cut::cut_count;
 use crate::scene::{Scene, SurfaceGravity, YieldChoice};
 use crate::setup::{FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
 pub use crate::solver::boundary_cells::boundary_cells;
@@ -128,6 +129,9 @@ pub(crate) fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
     if handed > 0 {
         items.push(item("surfaces of moving solids", Part::Walls, handed));
     }
+    if !setup.cuts.is_empty() {
+        items.push(item("shares of cut links", Part::Walls, size_of_val(&*setup.cuts) as u64));
+    }
     if !setup.fluid_of_cell.is_empty() {
         items.push(per_cell("fluid numbers", Part::Walls, 1));
     }
@@ -157,6 +161,11 @@ fn every_cell(setup: &Setup, item: &dyn Fn(&'static str, Part, u64) -> Item) -> 
         if setup.wall_rule == WallRule::ViscosityIndependent {
             items.push(item("wall corrections", Part::Walls, boundary * plain::CORRECTION));
         }
+    }
+    if !setup.cuts.is_empty() {
+        let [cells, links] = cut_count(setup);
+        let bytes = cells * plain::CUT_CELL + links * plain::CUT_LINK;
+        items.push(item("links that surfaces cut", Part::Walls, bytes));
     }
     if matches!(setup.yielding, YieldTreatment::LaggedClamped { .. }) {
         items.push(item("relaxation time of the previous step", Part::Populations, plain::LAG * cells));

@@ -37,7 +37,7 @@ pub use fluid::{
 pub use motion::{Motion, Motions};
 pub use numerics::{
     Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Numerics, Output, PrecisionChoice, RefillChoice,
-    Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
+    SolidSurface, Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
 pub use operator::Operator;
 pub use probe::{Measure, Probe, Subject, Target};

@@ -18,6 +18,9 @@ pub struct Numerics {
     /// Wall velocity used by half-way bounce-back.
     #[serde(default)]
     pub wall_rule: WallChoice,
+    /// Where the surfaces of solids lie.
+    #[serde(default)]
+    pub solid_surface: SolidSurface,
     /// Source in the third moments (experimental).
     #[serde(default)]
     pub stress_source: bool,
@@ -174,6 +177,17 @@ pub enum WallChoice {
     /// and unyielded material rests.
     #[default]
     ViscosityIndependent,
+}
+
+/// Where the surfaces of solids lie; faces of the box always lie half-way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum SolidSurface {
+    /// Half-way between the cells on either side: curved and oblique solids are stairs.
+    #[default]
+    HalfWay,
+    /// In their true place, by central linear interpolation along the links between cells.
+    CentralLinear,
 }
 
 /// When the run ends.

@@ -63,6 +63,14 @@ pub enum StartError {
         /// Its fill.
         found: f64,
     },
+    /// A cut cell that cannot be.
+    #[error("cut cell {cell} {what}")]
+    Cut {
+        /// Index of the cell.
+        cell: usize,
+        /// What is wrong with it.
+        what: &'static str,
+    },
     /// An open face without a free surface.
     #[error("axis {axis}: an open face needs a free surface")]
     OpenWithoutSurface {

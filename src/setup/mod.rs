@@ -7,10 +7,12 @@
 use std::sync::Arc;
 
 pub mod course;
+pub mod cuts;
 pub(crate) mod guard;
 pub(crate) mod suspension;
 
 pub use course::{Course, Courses};
+pub use cuts::CutCell;
 pub use suspension::Suspension;
 
 use crate::collision::CollisionChoice;
@@ -234,6 +236,8 @@ pub struct Setup {
     pub solid_motion: Vec<SolidMotion>,
     /// How the velocities of faces and solids change in time; constant by default.
     pub courses: Courses,
+    /// Where the surfaces of solids cut links, in order of the cells \[B4\]; empty: half-way everywhere.
+    pub cuts: Arc<[CutCell]>,
     /// Per cell: index into `fluids`. Empty: all cells hold `fluids[0]`.
     pub fluid_of_cell: Vec<u8>,
     /// The constitutive laws, lattice units.
@@ -274,6 +278,7 @@ impl Setup {
             solids: Vec::new(),
             solid_motion: Vec::new(),
             courses: Courses::default(),
+            cuts: Arc::default(),
             fluid_of_cell: Vec::new(),
             fluids: vec![law],
             yielding: YieldTreatment::Exact,

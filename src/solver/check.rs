@@ -1,7 +1,7 @@
 //! Consistency of a [`Setup`] before anything is allocated.
 
 use super::run::StartError;
-use crate::boundary::links::MAX_CELLS;
+use crate::boundary::links::{MAX_CELLS, boundary_cell};
 use crate::setup::{Course, Face, Setup};
 
 /// Checks lengths, table entries, faces and size.
@@ -41,7 +41,31 @@ pub(crate) fn check(setup: &Setup) -> Result<(), StartError> {
     if !setup.courses.all().all(Course::is_sound) {
         return Err(StartError::Course);
     }
+    cuts(setup)?;
     surface(setup)
+}
+
+/// Cut cells come in order, are not solid, and have shares from 0 to 1.
+fn cuts(setup: &Setup) -> Result<(), StartError> {
+    let mut before = None;
+    for cut in setup.cuts.iter() {
+        let cell = cut.cell as usize;
+        let wrong = |what| Err(StartError::Cut { cell, what });
+        if before.is_some_and(|before| before >= cell) {
+            return wrong("does not come after the cell before it");
+        }
+        if cell >= setup.cells() || setup.is_solid(cell) {
+            return wrong("is no fluid cell of the box");
+        }
+        if boundary_cell(setup, cell).is_none_or(|record| !record.touches_wall) {
+            return wrong("touches no wall");
+        }
+        if !cut.shares.iter().all(|share| (0.0..=1.0).contains(share)) {
+            return wrong("has a share outside 0 to 1");
+        }
+        before = Some(cell);
+    }
+    Ok(())
 }
 
 /// Fill of a free surface: one entry per cell, 0 to 1, some fluid.

@@ -6,6 +6,7 @@ pub(crate) mod cell;
 pub(crate) mod check;
 pub mod choose;
 pub(crate) mod compiled;
+pub(crate) mod cuts;
 pub mod fast;
 pub mod initial;
 pub(crate) mod layout;

@@ -1,5 +1,6 @@
 //! One block: what surrounds it, which packs are ordinary, and the links that are not.
 
+use super::cuts::Cuts;
 use super::layout::Layout;
 use crate::boundary::flat_wall::FlatWall;
 use crate::boundary::links::{BoundaryCell, Source, boundary_cell};
@@ -63,6 +64,8 @@ pub(crate) struct RimCell {
     pub flat: Option<FlatWall>,
     /// See [`BoundaryCell::drag`].
     pub drag: [f64; 3],
+    /// Its place among [`Block::cuts`].
+    pub cut: Option<u16>,
     /// Neighbours along the axes, low and high: for the pressure gradient \[B3\].
     pub neighbours: [[Option<Place>; 2]; 3],
 }
@@ -84,6 +87,8 @@ pub(crate) struct Block {
     pub first_link: Vec<u32>,
     /// Cells that touch walls or open faces, in order.
     pub rim: Vec<RimCell>,
+    /// Which of these have links that are not half-way.
+    pub cuts: Cuts,
     /// Number of the fluid by cell; empty if there is only one.
     pub fluid: Vec<u8>,
 }
@@ -135,6 +140,7 @@ impl Block {
             links: Vec::new(),
             first_link: Vec::with_capacity(packs + 1),
             rim: Vec::new(),
+            cuts: Cuts::default(),
             fluid: Vec::new(),
         };
         if setup.fluids.len() > 1 {
@@ -182,6 +188,7 @@ impl Block {
             open: false,
             flat: record.as_ref().and_then(|r| r.flat),
             drag: record.as_ref().map_or([0.0; 3], |r| r.drag),
+            cut: self.cuts.add(setup, layout, record.as_ref(), local, self.rim.len()),
             neighbours: [[None; 2]; 3],
         };
         let number = self.rim.len() as u16;
@@ -238,6 +245,7 @@ impl Block {
         self.links = Vec::new();
         self.first_link = Vec::new();
         self.rim = Vec::new();
+        self.cuts = Cuts::default();
         self.fluid = Vec::new();
     }
 
@@ -267,6 +275,7 @@ impl Block {
             + self.first_link.capacity() * size_of::<u32>()
             + self.rim.capacity() * size_of::<RimCell>()
             + self.fluid.capacity()) as u64
+            + self.cuts.bytes()
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod around;
 pub(crate) mod block;
+pub(crate) mod cuts;
 pub(crate) mod element;
 mod grains;
 mod hand_over;

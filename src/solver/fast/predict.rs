@@ -1,7 +1,9 @@
 //! Bytes of a run, worked out before any of them is taken.
 
+use super::cuts::cut_bytes;
 use super::layout::Layout;
 use super::memory as own;
+use crate::boundary::cut::cut_count;
 use crate::lattice::{C, Q};
 use crate::setup::{Face, Setup, SurfaceForce, WallRule, YieldTreatment};
 use crate::solver::boundary_cells::{neighbour, touches_boundary};
@@ -47,6 +49,7 @@ pub(crate) fn bytes(setup: &Setup) -> u64 {
         + rim * per_rim
         + interface * own::INTERFACE_BYTES
         + table
+        + cut_bytes(cut_count(setup))
 }
 
 /// Which places hold a fluid cell at time 0, and, below a free surface, a neighbour of one: the fluid will move.

@@ -168,14 +168,21 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
     fn allocated_bytes(&self) -> u64 {
         let populations: u64 = self.old.iter().chain(&self.new).map(Aligned::bytes).sum();
         let rim: usize = self.rim.iter().map(|rim| size_of_val(rim.as_slice())).sum();
-        let numbers: usize = self.density.iter().chain(&self.lag).map(|n| size_of_val(n.as_slice())).sum();
+        let cuts = size_of_val(&*self.setup.cuts);
+        let numbers: usize = self
+            .density
+            .iter()
+            .chain(&self.lag)
+            .chain(&self.cut_returned)
+            .map(|n| size_of_val(n.as_slice()))
+            .sum();
         let blocks: u64 = self.blocks.iter().map(Block::bytes).sum();
         let marks = self.setup.solids.len() + self.setup.fluid_of_cell.len();
         let surface = self.surface.as_ref().map_or(0, Surface::bytes);
         let sources = sources_bytes(&self.layout, E::PER_LINE);
         let grains = self.grains.as_ref().map_or(0, |grains| grains.bytes());
         populations
-            + (rim + numbers + marks) as u64
+            + (rim + numbers + cuts + marks) as u64
             + blocks
             + self.layout.bytes()
             + self.hand_over.bytes()

@@ -7,6 +7,7 @@ use crate::boundary::flat_wall::FlatWall;
 use crate::lattice::Q;
 use crate::lattice::unroll::{directions, three};
 use crate::solver::cell::{Situation, State, wall_correction};
+use crate::solver::cuts::cut_correction;
 use crate::solver::physics::Physics;
 
 /// What is kept of a cell at a wall or open face.
@@ -56,6 +57,8 @@ pub(crate) struct Alike {
     pub walls: u32,
     /// The wall, where the law by stress acts.
     pub flat: Option<FlatWall>,
+    /// Whether surfaces cut their links \[B4\].
+    pub cut: bool,
     /// Number of the fluid.
     pub fluid: u8,
 }
@@ -68,6 +71,7 @@ pub(crate) struct Columns {
     residual: [[f64; MOST]; 3],
     drag: [[f64; MOST]; 3],
     omega: [f64; MOST],
+    shares: [[f64; MOST]; Q],
 }
 
 impl Columns {
@@ -75,7 +79,14 @@ impl Columns {
     #[must_use]
     pub fn new() -> Self {
         let zeros = [0.0; MOST];
-        Self { f: [zeros; Q], force: [zeros; 3], residual: [zeros; 3], drag: [zeros; 3], omega: zeros }
+        Self {
+            f: [zeros; Q],
+            force: [zeros; 3],
+            residual: [zeros; 3],
+            drag: [zeros; 3],
+            omega: zeros,
+            shares: [zeros; Q],
+        }
     }
 
     /// A cell into a lane.
@@ -89,6 +100,13 @@ impl Columns {
             self.drag[a][lane] = drag[a];
         }
         self.omega[lane] = kept.omega;
+    }
+
+    /// The shares of a cut cell into a lane.
+    pub(crate) fn put_shares(&mut self, lane: usize, shares: &[f64; Q]) {
+        for (column, share) in self.shares.iter_mut().zip(shares) {
+            column[lane] = *share;
+        }
     }
 
     /// The correction of a lane.
@@ -116,6 +134,17 @@ impl Columns {
                 m: task.physics.moments(&h, &load(&self.force)),
                 omega: R::load_wide(&self.omega[part..]),
             };
+            if alike.cut {
+                let shares = directions(
+                    #[inline(always)]
+                    |i| R::load_wide(&self.shares[i][part..]),
+                );
+                let correction = cut_correction(task.physics, &h, &state, &shares);
+                for i in 0..Q {
+                    R::store_wide(correction[i], &mut self.f[i][part..]);
+                }
+                continue;
+            }
             let situation = Situation {
                 residual: load(&self.residual),
                 drag: load(&self.drag),

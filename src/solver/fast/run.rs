@@ -48,6 +48,8 @@ pub struct FastRun<P, E: Element = f64> {
     /// Where the next collision puts its result.
     pub(super) new: Vec<Aligned<E>>,
     pub(super) rim: Vec<Vec<Rim>>,
+    /// What comes back along cut links, by block.
+    pub(super) cut_returned: Vec<Vec<f64>>,
     /// ρ − 1 before the last collision; only with the viscosity-independent wall.
     pub(super) density: Vec<Vec<f64>>,
     /// ω⁺ of the last collision; only for the lagged treatment.
@@ -99,6 +101,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             old: Vec::new(),
             new: Vec::new(),
             rim: Vec::new(),
+            cut_returned: Vec::new(),
             density: Vec::new(),
             lag: Vec::new(),
             surface: None,
@@ -141,6 +144,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let rim = if self.corrected() || open { block.rim.len() } else { 0 };
         let walls = self.corrected() && super::memory::has_walls(&self.setup);
         put(&mut self.rim, number, vec![Rim::default(); rim]);
+        put(&mut self.cut_returned, number, vec![0.0; block.cuts.links.len()]);
         put(&mut self.density, number, vec![0.0; if walls { cells } else { 0 }]);
         let lagged = matches!(self.setup.yielding, YieldTreatment::LaggedClamped { .. });
         put(&mut self.lag, number, vec![0.0; if lagged { cells } else { 0 }]);
@@ -197,6 +201,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             step: self.step,
             velocities: &self.velocities.list,
             hand_over: &self.hand_over,
+            cut_returned: &self.cut_returned,
             past_cache: self.population_bytes() > CACHED,
             surface: self.surface.as_ref().map(Surface::view),
         }
@@ -226,9 +231,11 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         lap(&mut self.seconds[1]);
         std::mem::swap(&mut self.old, &mut self.new);
         self.fresh = false;
-        self.book_loads();
         self.exchange_with_grains();
         lap(&mut self.seconds[3]);
+        self.cut_pass();
+        self.book_loads();
+        lap(&mut self.seconds[1]);
         self.surface_pass(&force);
         lap(&mut self.seconds[2]);
         self.move_grains()?;
@@ -312,7 +319,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     }
 
     /// Whether a cell is no interface cell.
-    fn is_full(&self, number: usize, local: usize) -> bool {
+    pub(super) fn is_full(&self, number: usize, local: usize) -> bool {
         self.surface.as_ref().is_none_or(|surface| surface.kinds[number][local] != Kind::Interface)
     }
 

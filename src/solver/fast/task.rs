@@ -35,6 +35,8 @@ pub(crate) struct Task<'a, P, E> {
     pub velocities: &'a [[f64; 3]],
     /// What moving solids hand along their surfaces.
     pub hand_over: &'a HandOver,
+    /// What comes back along cut links, by block.
+    pub cut_returned: &'a [Vec<f64>],
     /// Whether stores go past the cache.
     pub past_cache: bool,
     /// Free surface, if any.

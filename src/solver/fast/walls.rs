@@ -27,7 +27,7 @@ pub(crate) fn correct<P: Physics>(
 ) {
     let mut columns = Columns::new();
     let mut group = [0; MOST];
-    let mut flat = None;
+    let (mut flat, mut cut) = (None, false);
     let mut at = 0;
     while at < rim.len() {
         let mut count = 0;
@@ -36,13 +36,21 @@ pub(crate) fn correct<P: Physics>(
             if cell.walls != 0
                 && let Some(given) = given(task, cell, &rim[at], force, is_liquid)
             {
-                let wall = cell.flat.filter(|_| is_full(usize::from(cell.local)));
+                let full = is_full(usize::from(cell.local));
+                let wall = cell.flat.filter(|_| full);
+                let shares = cell.cut.filter(|_| full).map(|cut| &block.cuts.cells[usize::from(cut)].shares);
                 if count == 0 {
-                    flat = wall;
-                } else if wall != flat || !alike(block, &block.rim[group[0]], cell) {
+                    (flat, cut) = (wall, shares.is_some());
+                } else if wall != flat
+                    || shares.is_some() != cut
+                    || !alike(block, &block.rim[group[0]], cell, cut)
+                {
                     break;
                 }
                 columns.put(count, &rim[at], &given, &cell.drag);
+                if let Some(shares) = shares {
+                    columns.put_shares(count, shares);
+                }
                 group[count] = at;
                 count += 1;
             }
@@ -50,7 +58,7 @@ pub(crate) fn correct<P: Physics>(
         }
         if count > 0 {
             let cell = &block.rim[group[0]];
-            let alike = Alike { count, walls: cell.walls, flat, fluid: fluid_of(block, cell) };
+            let alike = Alike { count, walls: cell.walls, flat, cut, fluid: fluid_of(block, cell) };
             instructions::walls(chosen, task, &mut columns, &alike);
             for (lane, &at) in group[..count].iter().enumerate() {
                 columns.take(lane, &mut rim[at]);
@@ -59,9 +67,9 @@ pub(crate) fn correct<P: Physics>(
     }
 }
 
-/// Whether two cells have the same walls and fluid.
-fn alike(block: &Block, a: &RimCell, b: &RimCell) -> bool {
-    a.walls == b.walls && fluid_of(block, a) == fluid_of(block, b)
+/// Whether two cells have the same walls and fluid; `cut`: cut cells bring their walls with their shares.
+fn alike(block: &Block, a: &RimCell, b: &RimCell, cut: bool) -> bool {
+    (cut || a.walls == b.walls) && fluid_of(block, a) == fluid_of(block, b)
 }
 
 fn fluid_of(block: &Block, cell: &RimCell) -> u8 {

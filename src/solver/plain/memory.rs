@@ -1,6 +1,8 @@
 //! Bytes of the arrays of the plain backend, for the prediction of `plan`; `tests/memory.rs` compares them with what a
 //! run holds.
 
+use super::cuts::CutAt;
+use crate::boundary::cut::CutLink;
 use crate::boundary::links::BoundaryCell;
 use crate::lattice::Q;
 
@@ -17,6 +19,9 @@ pub(crate) const AXIS: u64 = 3 * size_of::<usize>() as u64;
 pub(crate) const RECORD: u64 = size_of::<BoundaryCell>() as u64;
 /// Of such a cell: what the wall correction keeps.
 pub(crate) const CORRECTION: u64 = Q as u64 * NUMBER;
+/// Of a cut cell, and of a link of one with what comes back along it.
+pub(crate) const CUT_CELL: u64 = size_of::<CutAt>() as u64;
+pub(crate) const CUT_LINK: u64 = size_of::<CutLink>() as u64 + NUMBER;
 /// Of a cell: ω⁺ of the previous step.
 pub(crate) const LAG: u64 = NUMBER;
 /// Of a cell below a free surface or among grains: kind, touched kinds, mass, fill now and at time 0, and velocity.

@@ -9,6 +9,7 @@ use crate::free_surface::ledger::VectorSum;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, W, opposite};
 use crate::solver::cell::{self, Cell};
+use crate::solver::cuts::{cut_correction, cut_shares};
 use crate::solver::physics::Physics;
 use crate::solver::pool::each;
 use crate::solver::run::Stopped;
@@ -58,12 +59,19 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 walls: record.walls,
                 flat: record.flat.filter(|_| !self.is_interface(at)),
             };
-            self.corrections[slot] =
-                cell::wall_correction(&self.physics, &self.f[at], &self.state(at, &force), &situation);
+            let state = self.state(at, &force);
+            let cut = record.cut.filter(|_| !self.is_interface(at));
+            self.corrections[slot] = match cut.and_then(|place| self.setup.cuts.get(place as usize)) {
+                None => cell::wall_correction(&self.physics, &self.f[at], &state, &situation),
+                Some(cut) => {
+                    let shares = cut_shares(cut, record.walls);
+                    cut_correction(&self.physics, &self.f[at], &state, &shares)
+                }
+            };
         }
     }
 
-    fn is_interface(&self, cell: usize) -> bool {
+    pub(super) fn is_interface(&self, cell: usize) -> bool {
         self.surface.as_ref().is_some_and(|surface| surface.kinds[cell] == Kind::Interface)
     }
 
@@ -164,8 +172,10 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         let interface = self.is_interface(cell);
         match self.links.kind(cell) {
             CellKind::Bulk if !interface => std::array::from_fn(|i| self.post[self.links.upstream(at, i)][i]),
-            CellKind::Bulk => self.gather_links(cell, at, None),
-            CellKind::Boundary(slot) => self.gather_links(cell, at, self.corrections.get(slot)),
+            CellKind::Bulk => self.gather_links(cell, at, None, None),
+            CellKind::Boundary(slot) => {
+                self.gather_links(cell, at, self.corrections.get(slot), self.links.boundary()[slot].cut)
+            }
             // Holds no fluid.
             CellKind::Solid => [0.0; Q],
         }
@@ -179,9 +189,9 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         }
     }
 
-    /// Streaming into a cell that touches a wall, a solid, a mirror plane or gas \[B1\]–\[B3\] \[F2\].
+    /// Streaming into a cell that touches a wall, a solid, a mirror plane or gas \[B1\]–\[B4\] \[F2\].
     #[inline(never)]
-    fn gather_links(&self, cell: usize, at: [usize; 3], correction: Option<&Cell>) -> Cell {
+    fn gather_links(&self, cell: usize, at: [usize; 3], correction: Option<&Cell>, cut: Option<u32>) -> Cell {
         let own = &self.post[cell];
         let rho = 1.0 + density_excess(own);
         std::array::from_fn(|i| {
@@ -190,11 +200,15 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             }
             match self.links.source_at(cell, at, i) {
                 Source::Wall { velocity, body } => {
-                    let back = cell::wall_link(&self.physics, own, correction, i, rho, &velocity);
-                    match self.hand_over.at(cell, body) {
-                        None => back,
-                        Some(record) => back + W[i] * self.hand_over.raise(record, rho, self.given(record)),
-                    }
+                    cut.and_then(|place| self.cuts.returned(place, opposite(i))).unwrap_or_else(|| {
+                        let back = cell::wall_link(&self.physics, own, correction, i, rho, &velocity);
+                        match self.hand_over.at(cell, body) {
+                            None => back,
+                            Some(record) => {
+                                back + W[i] * self.hand_over.raise(record, rho, self.given(record))
+                            }
+                        }
+                    })
                 }
                 Source::Open => self.open_link(cell, i),
                 Source::Cell { cell: from, direction } => {

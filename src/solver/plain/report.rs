@@ -127,6 +127,8 @@ impl<P: Physics, S: SurfacePhysics> Run for PlainRun<P, S> {
         let marks = self.setup.solids.len() + self.setup.fluid_of_cell.len();
         let surface = self.surface.as_ref().map_or(0, |surface| surface.bytes());
         let grains = self.grains.as_ref().map_or(0, |grains| grains.bytes());
-        (populations + lag + marks) as u64 + self.links.bytes() + self.hand_over.bytes() + surface + grains
+        let cuts = size_of_val(&*self.setup.cuts) as u64 + self.cuts.bytes();
+        let walls = self.links.bytes() + self.hand_over.bytes() + cuts;
+        (populations + lag + marks) as u64 + walls + surface + grains
     }
 }

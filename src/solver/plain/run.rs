@@ -1,5 +1,6 @@
 //! A flow and its time step.
 
+use super::cuts::Cuts;
 use super::surface::cells::Wet;
 use super::surface::{Design, Surface, SurfacePhysics};
 use crate::boundary::hand_over::HandOver;
@@ -33,6 +34,8 @@ pub struct PlainRun<P, S = Design> {
     pub(super) previous_omega: Vec<f64>,
     /// Wall correction per boundary cell; only for the viscosity-independent wall.
     pub(super) corrections: Vec<Cell>,
+    /// Links that surfaces cut elsewhere than half-way.
+    pub(super) cuts: Cuts,
     /// Kinds of cells and all that follows; `None` where fluid fills every cell that is not solid.
     pub(super) surface: Option<Surface<S>>,
     /// Grains in the fluid, which need the kinds of cells with or without gas.
@@ -78,6 +81,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         let mut run = Self {
             setup: setup.clone(),
             physics,
+            cuts: Cuts::new(setup, &links),
             links,
             hand_over: HandOver::new(setup),
             f: vec![[0.0; Q]; cells],
@@ -127,6 +131,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         self.wall_pass(&force);
         self.collide_pass(&force)?;
         self.exchange_with_grains();
+        self.cut_pass();
         self.exchange_mass();
         self.stream_pass();
         self.book_links();

@@ -10,6 +10,7 @@ use crate::exact::duct::RectangularDuct;
 use crate::exact::flow_curve::FlowCurve;
 use crate::exact::pipe::Pipe;
 use crate::exhibit::{Entry, Exhibit, ExhibitData, Table};
+use lahar::boundary::cut::cut_cells;
 use lahar::collision::{CollisionChoice, OddRate};
 use lahar::rheology::Law;
 use lahar::setup::{BodyForce, Face, FlowPoint, Setup, SolidMotion, WallRule};
@@ -75,6 +76,8 @@ pub struct RoundPipe {
     pub force: f64,
     /// Wall rule.
     pub wall: WallRule,
+    /// Whether the wall lies in its place; on a staircase if not.
+    pub cut: bool,
 }
 
 impl RoundPipe {
@@ -83,7 +86,12 @@ impl RoundPipe {
         let fastest = Pipe { law: *law, radius: 1.0, force: 2.0 }.plug_velocity();
         let rate = speed / (fastest * radius);
         let scale = super::channel::Scale { n: 0, rate, stress: viscosity * rate };
-        Self { radius, law: scale.law(law), force: 2.0 * scale.stress / radius, wall }
+        Self { radius, law: scale.law(law), force: 2.0 * scale.stress / radius, wall, cut: false }
+    }
+
+    /// The same with its wall in its place \[B4\].
+    pub fn cut(self) -> Self {
+        Self { cut: true, ..self }
     }
 
     /// The exact flow.
@@ -111,6 +119,14 @@ impl RoundPipe {
         setup.solid_motion = vec![SolidMotion::default()];
         let outside = |cell: usize| pipe.distance(setup.coordinates(cell)) > pipe.radius;
         setup.solids = (0..setup.cells()).map(|cell| u8::from(outside(cell))).collect();
+        if self.cut {
+            let middle = 0.5 * m as f64;
+            let outside = |[_, y, z]: [f64; 3]| {
+                let (y, z) = (y - middle, z - middle);
+                (y * y + z * z).sqrt() > pipe.radius
+            };
+            setup.cuts = cut_cells(&setup, outside).into();
+        }
         setup.initial = Some(Arc::new(move |at| {
             let ([y, z], r) = (pipe.offset(at), pipe.distance(at));
             let exact = pipe.exact();

@@ -5,7 +5,7 @@ pub(super) mod clamped;
 mod couette;
 mod density;
 mod duct_waves;
-mod ducts_pipes;
+pub mod ducts_pipes;
 mod mutants;
 mod newtonian;
 mod thesis_figures;
