@@ -1,6 +1,7 @@
 //! Central linear interpolation: fixed solids at their true place \[B4\].
 
 use super::links::{Source, boundary_cell, resolve};
+use super::patch::{Patch, mean_direction};
 use crate::lane::Lane;
 use crate::lattice::{C, Q, opposite};
 use crate::setup::{CutCell, Setup};
@@ -77,6 +78,21 @@ pub(crate) fn cut_links<'a>(
     })
 }
 
+/// Mean velocity of the walls that the links of a cut cell lead into.
+#[must_use]
+pub(crate) fn wall_velocity(sources: &[Source; Q]) -> [f64; 3] {
+    let (mut sum, mut count) = ([0.0; 3], 0.0);
+    for source in sources {
+        if let Source::Wall { velocity, .. } = source {
+            for a in 0..3 {
+                sum[a] += velocity[a];
+            }
+            count += 1.0;
+        }
+    }
+    sum.map(|u| if count > 0.0 { u / count } else { 0.0 })
+}
+
 /// Whose mass the links of a cut cell count into: the solid on the first of them that is not half-way.
 #[must_use]
 pub(crate) fn body(sources: &[Source; Q], cut: &CutCell) -> u8 {
@@ -125,34 +141,54 @@ pub fn cut_cells(setup: &Setup, is_inside: impl Fn([f64; 3]) -> bool) -> Vec<Cut
             }
         }
         if shares != [0.5; Q] {
-            list.push(CutCell { cell: cell as u32, shares });
+            let Patch { normal, curvature } = patch(setup, at, &shares, &is_inside);
+            list.push(CutCell { cell: cell as u32, shares, normal, curvature });
         }
     }
     list
 }
 
+/// The surface beside a cell.
+fn patch(
+    setup: &Setup,
+    at: [usize; 3],
+    shares: &[f64; Q],
+    is_inside: &impl Fn([f64; 3]) -> bool,
+) -> Patch {
+    let cut = || (1..Q).filter(|&out| shares[out] != 0.5);
+    let first = cut().next().unwrap_or(1);
+    // A link says where the surface is the better the nearer it is.
+    let towards = |out: usize| C[out].map(|c| f64::from(c) / (0.1 + shares[out]));
+    let ahead = mean_direction(cut().map(towards)).or_else(|| mean_direction([towards(first)].into_iter()));
+    Patch::ahead(is_inside, start(setup, at, first, is_inside), ahead.unwrap_or([1.0, 0.0, 0.0]))
+}
+
+/// The centre of a cell, or its image beyond a periodic face from which the link leads into the solid where that is
+/// drawn.
+fn start(setup: &Setup, at: [usize; 3], out: usize, is_inside: &impl Fn([f64; 3]) -> bool) -> [f64; 3] {
+    let from = at.map(|x| x as f64 + 0.5);
+    let to: [f64; 3] = std::array::from_fn(|a| from[a] + f64::from(C[out][a]));
+    if is_inside(to) {
+        return from;
+    }
+    std::array::from_fn(|a| {
+        let n = setup.extents[a] as f64;
+        from[a] - n * (to[a] / n).floor()
+    })
+}
+
 /// Share of one link outside the solids, ½ where no surface is found on it.
 fn share(setup: &Setup, at: [usize; 3], out: usize, is_inside: &impl Fn([f64; 3]) -> bool) -> f64 {
-    let from = at.map(|x| x as f64 + 0.5);
-    let there = |start: [f64; 3], s: f64| {
-        let point = std::array::from_fn(|a| start[a] + s * f64::from(C[out][a]));
-        is_inside(point)
-    };
-    // Through a periodic face the solid is drawn where its cell is, which may not be where the link leads.
-    let wrapped: [f64; 3] = std::array::from_fn(|a| {
-        let n = setup.extents[a] as f64;
-        let to = from[a] + f64::from(C[out][a]);
-        from[a] - n * (to / n).floor()
-    });
-    let start = if there(from, 1.0) { from } else { wrapped };
-    if there(start, 0.0) || !there(start, 1.0) {
+    let start = start(setup, at, out, is_inside);
+    let there = |s: f64| is_inside(std::array::from_fn(|a| start[a] + s * f64::from(C[out][a])));
+    if there(0.0) || !there(1.0) {
         return 0.5;
     }
-    let first = (1..LOOKS).find(|&k| there(start, f64::from(k) / f64::from(LOOKS))).unwrap_or(LOOKS);
+    let first = (1..LOOKS).find(|&k| there(f64::from(k) / f64::from(LOOKS))).unwrap_or(LOOKS);
     let (mut low, mut high) = (f64::from(first - 1) / f64::from(LOOKS), f64::from(first) / f64::from(LOOKS));
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if there(start, middle) {
+        if there(middle) {
             high = middle;
         } else {
             low = middle;

@@ -1,13 +1,9 @@
 //! Mass over cut links \[B4\]: what they bring in, taken off again over each solid.
 
-use crate::boundary::cut::{CutLink, central_linear, push};
-use crate::boundary::wall_slip::local_curvature_at;
+use crate::boundary::cut::{CutLink, central_linear};
 use crate::free_surface::ledger::Sum;
-use crate::lane::Lane;
-use crate::lattice::unroll::directions;
-use crate::lattice::{Q, opposite};
-use crate::setup::CutCell;
-use crate::solver::cell::{Cell, State};
+use crate::lattice::opposite;
+use crate::solver::cell::Cell;
 use crate::solver::physics::Physics;
 
 /// Σ e and Σ |e| over the cut links of each solid, e what a link brings in; in any order.
@@ -85,43 +81,6 @@ pub(crate) fn cut_link<P: Physics>(
     let leaving = own[out] - correction.map_or(0.0, |c| c[out]);
     let back = central_linear(leaving, opposite, behind.unwrap_or(opposite), link.pull);
     physics.wall(back, out, rho, &link.velocity.map(|u| link.push * u)) - own[out]
-}
-
-/// Shares of the links that lead into walls; −1 on the others.
-#[must_use]
-pub(crate) fn cut_shares(cut: &CutCell, walls: u32) -> [f64; Q] {
-    std::array::from_fn(|i| if walls >> i & 1 != 0 { cut.shares[i] } else { -1.0 })
-}
-
-/// What the viscosity-independent wall subtracts from the populations leaving a cut cell that is full of fluid \[B4\].
-///
-/// A steady link asks for e⁻ + q g⁺ − (τ⁻ − ½) g⁻ = 0 at the cell, g what the collision changes; the last term should be
-/// the curvature's, q² instead of the scheme's 4/3 (τ⁺ − ½)(τ⁻ − ½). What it has too much is taken off link by link.
-///
-/// # Arguments
-/// `h`: populations before collision. `shares`: [`cut_shares`].
-/// # Source
-/// docs/method.md \[B4\].
-/// # Verified by
-/// Claims `pipe-newtonian-cut`, `pipe-bingham-cut`.
-#[inline(always)]
-pub(crate) fn cut_correction<L: Lane, P: Physics>(
-    physics: &P,
-    h: &[L; Q],
-    state: &State<L>,
-    shares: &[L; Q],
-) -> [L; Q] {
-    let odd_omega = physics.odd_omega(state.omega);
-    let departure = physics.odd_departure(h, &state.m);
-    directions(
-        #[inline(always)]
-        |i| {
-            let local = local_curvature_at(state.omega, odd_omega, shares[i]);
-            let keep = (L::splat(2.0) - odd_omega) - odd_omega * local;
-            let excess = push(shares[i]) * (keep * departure[i]);
-            L::select(shares[i].less(L::zero()), L::zero(), excess)
-        },
-    )
 }
 
 #[cfg(test)]

@@ -6,12 +6,13 @@ use super::layout::{Layout, NONE};
 use super::links::{after, half_way_link, stored};
 use super::run::FastRun;
 use super::task::Task;
-use crate::boundary::cut::{CutLink, body, cut_links};
+use crate::boundary::cut::{CutLink, body, cut_links, wall_velocity};
 use crate::boundary::links::BoundaryCell;
 use crate::lattice::moments::density_excess;
-use crate::lattice::{Q, opposite};
+use crate::lattice::opposite;
 use crate::setup::Setup;
-use crate::solver::cuts::{Brought, cut_link, cut_shares, kept};
+use crate::solver::cut_law::{CutShape, Memory};
+use crate::solver::cuts::{Brought, cut_link, kept};
 use crate::solver::physics::Physics;
 use crate::solver::pool::each;
 
@@ -28,8 +29,8 @@ pub(crate) struct CutRim {
     arriving: u32,
     /// Whose mass its links count into.
     body: u8,
-    /// Shares of the links, −1 of those that lead into no wall.
-    pub shares: [f64; Q],
+    /// What its wall correction depends on.
+    pub shape: CutShape,
 }
 
 /// A link of a cut cell.
@@ -74,7 +75,7 @@ impl Cuts {
             first,
             arriving,
             body: body(&record.sources, cut),
-            shares: cut_shares(cut, record.walls),
+            shape: CutShape::new(cut, record.walls, wall_velocity(&record.sources)),
         });
         Some((self.cells.len() - 1) as u16)
     }
@@ -99,7 +100,7 @@ impl Cuts {
 pub(crate) const fn cut_bytes([cells, links]: [u64; 2]) -> u64 {
     // Lists grow by doubling.
     let lists = cells * size_of::<CutRim>() as u64 + links * size_of::<CutPlace>() as u64;
-    lists * 5 / 4 + links * size_of::<f64>() as u64
+    lists * 5 / 4 + cells * size_of::<Memory>() as u64 + links * size_of::<f64>() as u64
 }
 
 impl<P: Physics, E: Element> FastRun<P, E> {

@@ -168,7 +168,8 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
     fn allocated_bytes(&self) -> u64 {
         let populations: u64 = self.old.iter().chain(&self.new).map(Aligned::bytes).sum();
         let rim: usize = self.rim.iter().map(|rim| size_of_val(rim.as_slice())).sum();
-        let cuts = size_of_val(&*self.setup.cuts);
+        let memory: usize = self.cut_memory.iter().map(|list| size_of_val(list.as_slice())).sum();
+        let cuts = size_of_val(&*self.setup.cuts) + memory;
         let numbers: usize = self
             .density
             .iter()

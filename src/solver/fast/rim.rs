@@ -5,9 +5,9 @@ use super::layout::Layout;
 use super::registers::Registers;
 use crate::boundary::flat_wall::FlatWall;
 use crate::lattice::Q;
-use crate::lattice::unroll::{directions, three};
+use crate::lattice::unroll::{directions, six, three};
 use crate::solver::cell::{Situation, State, wall_correction};
-use crate::solver::cuts::cut_correction;
+use crate::solver::cut_law::{CutShape, Memory, cut_correction};
 use crate::solver::physics::Physics;
 
 /// What is kept of a cell at a wall or open face.
@@ -71,7 +71,17 @@ pub(crate) struct Columns {
     residual: [[f64; MOST]; 3],
     drag: [[f64; MOST]; 3],
     omega: [f64; MOST],
+    cut: CutColumns,
+}
+
+/// What cut cells side by side have besides.
+#[repr(align(64))]
+struct CutColumns {
     shares: [[f64; MOST]; Q],
+    normal: [[f64; MOST]; 3],
+    curvature: [[f64; MOST]; 6],
+    wall: [[f64; MOST]; 3],
+    memory: [[f64; MOST]; 4],
 }
 
 impl Columns {
@@ -85,7 +95,7 @@ impl Columns {
             residual: [zeros; 3],
             drag: [zeros; 3],
             omega: zeros,
-            shares: [zeros; Q],
+            cut: CutColumns::new(),
         }
     }
 
@@ -102,11 +112,23 @@ impl Columns {
         self.omega[lane] = kept.omega;
     }
 
-    /// The shares of a cut cell into a lane.
-    pub(crate) fn put_shares(&mut self, lane: usize, shares: &[f64; Q]) {
-        for (column, share) in self.shares.iter_mut().zip(shares) {
-            column[lane] = *share;
-        }
+    /// A cut cell into a lane.
+    pub(crate) fn put_cut(&mut self, lane: usize, shape: &CutShape, memory: &Memory) {
+        let put = |columns: &mut [[f64; MOST]], values: &[f64]| {
+            for (column, value) in columns.iter_mut().zip(values) {
+                column[lane] = *value;
+            }
+        };
+        put(&mut self.cut.shares, &shape.shares);
+        put(&mut self.cut.normal, &shape.normal);
+        put(&mut self.cut.curvature, &shape.curvature);
+        put(&mut self.cut.wall, &shape.wall);
+        put(&mut self.cut.memory, memory);
+    }
+
+    /// What the cut cell in a lane remembers.
+    pub(crate) fn memory_of(&self, lane: usize) -> Memory {
+        self.cut.memory.map(|column| column[lane])
     }
 
     /// The correction of a lane.
@@ -135,13 +157,15 @@ impl Columns {
                 omega: R::load_wide(&self.omega[part..]),
             };
             if alike.cut {
-                let shares = directions(
-                    #[inline(always)]
-                    |i| R::load_wide(&self.shares[i][part..]),
-                );
-                let correction = cut_correction(task.physics, &h, &state, &shares);
+                let residual = load(&self.residual);
+                let (shape, memory) = self.cut.load::<R>(part);
+                let (correction, memory) =
+                    cut_correction(task.physics, &h, &state, &shape, &residual, alike.fluid, memory);
                 for i in 0..Q {
                     R::store_wide(correction[i], &mut self.f[i][part..]);
+                }
+                for k in 0..4 {
+                    R::store_wide(memory[k], &mut self.cut.memory[k][part..]);
                 }
                 continue;
             }
@@ -158,6 +182,43 @@ impl Columns {
                 R::store_wide(correction[i], &mut self.f[i][part..]);
             }
         }
+    }
+}
+
+impl CutColumns {
+    fn new() -> Self {
+        let zeros = [0.0; MOST];
+        Self {
+            shares: [zeros; Q],
+            normal: [zeros; 3],
+            curvature: [zeros; 6],
+            wall: [zeros; 3],
+            memory: [zeros; 4],
+        }
+    }
+
+    #[inline(always)]
+    fn load<R: Registers<Element = f64>>(&self, part: usize) -> (CutShape<R::Pack>, Memory<R::Pack>) {
+        let load = |column: &[f64; MOST]| R::load_wide(&column[part..]);
+        let shape = CutShape {
+            shares: directions(
+                #[inline(always)]
+                |i| load(&self.shares[i]),
+            ),
+            normal: three(
+                #[inline(always)]
+                |a| load(&self.normal[a]),
+            ),
+            curvature: six(
+                #[inline(always)]
+                |k| load(&self.curvature[k]),
+            ),
+            wall: three(
+                #[inline(always)]
+                |a| load(&self.wall[a]),
+            ),
+        };
+        (shape, [0, 1, 2, 3].map(|k| load(&self.memory[k])))
     }
 }
 

@@ -14,13 +14,14 @@ use super::sources::Sources;
 use super::stores;
 use super::surface::state::Surface;
 use super::task::{Outcome, Own, Task};
-use super::walls::correct;
+use super::walls::{Kept, correct};
 use crate::boundary::hand_over::HandOver;
 use crate::coupling::Immersed;
 use crate::free_surface::Kind;
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
 use crate::setup::{Setup, WallRule, YieldTreatment};
+use crate::solver::cut_law::Memory;
 use crate::solver::initial;
 use crate::solver::loads::recorded;
 use crate::solver::physics::Physics;
@@ -50,6 +51,8 @@ pub struct FastRun<P, E: Element = f64> {
     pub(super) rim: Vec<Vec<Rim>>,
     /// What comes back along cut links, by block.
     pub(super) cut_returned: Vec<Vec<f64>>,
+    /// What cut cells remember of their stress, by block.
+    pub(super) cut_memory: Vec<Vec<Memory>>,
     /// ρ − 1 before the last collision; only with the viscosity-independent wall.
     pub(super) density: Vec<Vec<f64>>,
     /// ω⁺ of the last collision; only for the lagged treatment.
@@ -102,6 +105,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             new: Vec::new(),
             rim: Vec::new(),
             cut_returned: Vec::new(),
+            cut_memory: Vec::new(),
             density: Vec::new(),
             lag: Vec::new(),
             surface: None,
@@ -145,6 +149,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let walls = self.corrected() && super::memory::has_walls(&self.setup);
         put(&mut self.rim, number, vec![Rim::default(); rim]);
         put(&mut self.cut_returned, number, vec![0.0; block.cuts.links.len()]);
+        put(&mut self.cut_memory, number, vec![[0.0; 4]; block.cuts.cells.len()]);
         put(&mut self.density, number, vec![0.0; if walls { cells } else { 0 }]);
         let lagged = matches!(self.setup.yielding, YieldTreatment::LaggedClamped { .. });
         put(&mut self.lag, number, vec![0.0; if lagged { cells } else { 0 }]);
@@ -294,20 +299,23 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             return;
         }
         let mut rim = std::mem::take(&mut self.rim);
+        let mut memory = std::mem::take(&mut self.cut_memory);
         let task = WallTask {
             physics: &self.physics,
             layout: &self.layout,
             density: &self.density,
             sourced: self.setup.stress_source,
         };
-        let items = rim.iter_mut().enumerate().filter(|(_, rim)| !rim.is_empty()).collect();
-        each(self.pool.as_ref(), items, |(number, rim): (usize, &mut Vec<Rim>)| {
+        let both = rim.iter_mut().zip(&mut memory);
+        let items = both.enumerate().filter(|(_, (rim, _))| !rim.is_empty()).collect();
+        each(self.pool.as_ref(), items, |(number, (rim, memory)): (usize, (&mut Vec<Rim>, &mut Vec<Memory>))| {
+            let mut kept = Kept { rim, memory };
             let force_of = |local| self.force_of(number, local, force);
             let is_full = |local| self.is_full(number, local);
             let is_liquid = |place: Place| self.is_fluid(place) && self.is_full_at(place);
-            correct(self.chosen, &task, &self.blocks[number], rim, &force_of, &is_full, &is_liquid);
+            correct(self.chosen, &task, &self.blocks[number], &mut kept, &force_of, &is_full, &is_liquid);
         });
-        self.rim = rim;
+        (self.rim, self.cut_memory) = (rim, memory);
     }
 
     /// Body force of a cell; `None` where it holds no fluid.

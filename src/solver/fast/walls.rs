@@ -7,10 +7,19 @@ use super::layout::NONE;
 use super::rim::{Alike, Columns, Given, Rim, WallTask};
 use crate::boundary::wall_slip::pressure_slope;
 use crate::lattice::moments::density_excess;
+use crate::solver::cut_law::Memory;
 use crate::solver::physics::Physics;
 
 /// Cells that are corrected together: as many as the widest register holds.
 const GROUP: usize = 8;
+
+/// What is kept of the rim cells of a block.
+pub(crate) struct Kept<'a> {
+    /// All of them.
+    pub rim: &'a mut [Rim],
+    /// Of those that surfaces cut.
+    pub memory: &'a mut [Memory],
+}
 
 /// Corrections of the rim cells of a block: neighbours along the rim with the same walls side by side.
 /// `force(local)`: body force of a fluid cell, `None` if the cell holds no fluid; `is_full(local)`:
@@ -20,11 +29,12 @@ pub(crate) fn correct<P: Physics>(
     chosen: Chosen,
     task: &WallTask<P>,
     block: &Block,
-    rim: &mut [Rim],
+    kept: &mut Kept,
     force: &impl Fn(usize) -> Option<[f64; 3]>,
     is_full: &impl Fn(usize) -> bool,
     is_liquid: &impl Fn(Place) -> bool,
 ) {
+    let Kept { rim, memory } = kept;
     let mut columns = Columns::new();
     let mut group = [0; MOST];
     let (mut flat, mut cut) = (None, false);
@@ -33,23 +43,25 @@ pub(crate) fn correct<P: Physics>(
         let mut count = 0;
         while count < GROUP && at < rim.len() {
             let cell = &block.rim[at];
-            if cell.walls != 0
-                && let Some(given) = given(task, cell, &rim[at], force, is_liquid)
-            {
-                let full = is_full(usize::from(cell.local));
-                let wall = cell.flat.filter(|_| full);
-                let shares = cell.cut.filter(|_| full).map(|cut| &block.cuts.cells[usize::from(cut)].shares);
+            let place = cell.cut.map(usize::from);
+            let given = if cell.walls == 0 { None } else { given(task, cell, &rim[at], force, is_liquid) };
+            let full = given.is_some() && is_full(usize::from(cell.local));
+            if let Some(memory) = place.filter(|_| !full).and_then(|place| memory.get_mut(place)) {
+                *memory = [0.0; 4];
+            }
+            if let Some(given) = given {
+                let (wall, shape) = (cell.flat.filter(|_| full), place.filter(|_| full));
                 if count == 0 {
-                    (flat, cut) = (wall, shares.is_some());
+                    (flat, cut) = (wall, shape.is_some());
                 } else if wall != flat
-                    || shares.is_some() != cut
+                    || shape.is_some() != cut
                     || !alike(block, &block.rim[group[0]], cell, cut)
                 {
                     break;
                 }
                 columns.put(count, &rim[at], &given, &cell.drag);
-                if let Some(shares) = shares {
-                    columns.put_shares(count, shares);
+                if let Some(place) = shape {
+                    columns.put_cut(count, &block.cuts.cells[place].shape, &memory[place]);
                 }
                 group[count] = at;
                 count += 1;
@@ -62,6 +74,9 @@ pub(crate) fn correct<P: Physics>(
             instructions::walls(chosen, task, &mut columns, &alike);
             for (lane, &at) in group[..count].iter().enumerate() {
                 columns.take(lane, &mut rim[at]);
+                if let Some(place) = block.rim[at].cut.filter(|_| cut) {
+                    memory[usize::from(place)] = columns.memory_of(lane);
+                }
             }
         }
     }

@@ -2,11 +2,13 @@
 
 use super::run::PlainRun;
 use super::surface::SurfacePhysics;
-use crate::boundary::cut::{CutLink, body, cut_links};
+use crate::boundary::cut::{CutLink, body, cut_links, wall_velocity};
 use crate::boundary::links::Links;
 use crate::lattice::moments::density_excess;
+use crate::lattice::{Q, opposite};
 use crate::setup::Setup;
-use crate::solver::cell::wall_link;
+use crate::solver::cell::{Cell, State, wall_link};
+use crate::solver::cut_law::{CutShape, Memory, cut_correction};
 use crate::solver::cuts::{Brought, cut_link, kept};
 use crate::solver::physics::Physics;
 
@@ -17,11 +19,16 @@ pub(super) struct Cuts {
     links: Vec<CutLink>,
     /// What comes back, by link.
     returned: Vec<f64>,
+    shapes: Vec<CutShape>,
+    memories: Vec<Memory>,
 }
+
+/// Bytes of a cut cell.
+pub(super) const CUT_CELL: usize = size_of::<CutAt>() + size_of::<CutShape>() + size_of::<Memory>();
 
 /// A cut cell.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CutAt {
+struct CutAt {
     /// Its record among those of all boundary cells.
     slot: u32,
     /// Whose mass its links count into.
@@ -40,6 +47,8 @@ impl Cuts {
             let body = body(&record.sources, cut);
             cuts.cells.push(CutAt { slot: slot as u32, body, first: cuts.links.len() as u32 });
             cuts.links.extend(cut_links(&record.sources, cut));
+            cuts.shapes.push(CutShape::new(cut, record.walls, wall_velocity(&record.sources)));
+            cuts.memories.push([0.0; 4]);
         }
         cuts.returned = vec![0.0; cuts.links.len()];
         cuts
@@ -53,11 +62,38 @@ impl Cuts {
         self.returned.get(first + link).copied()
     }
 
+    /// What the wall takes off the populations that leave a cut cell full of fluid.
+    #[inline(never)]
+    pub(super) fn correction<P: Physics>(
+        &mut self,
+        place: u32,
+        physics: &P,
+        h: &Cell,
+        state: &State,
+        residual: &[f64; 3],
+        fluid: u8,
+    ) -> Cell {
+        let at = place as usize;
+        let (Some(shape), Some(memory)) = (self.shapes.get(at), self.memories.get_mut(at)) else {
+            return [0.0; Q];
+        };
+        let (correction, now) = cut_correction(physics, h, state, shape, residual, fluid, *memory);
+        *memory = now;
+        correction
+    }
+
+    /// What a cell that is not full remembers: nothing.
+    pub(super) fn forget(&mut self, place: u32) {
+        if let Some(memory) = self.memories.get_mut(place as usize) {
+            *memory = [0.0; 4];
+        }
+    }
+
     /// Bytes held.
     #[must_use]
     pub(super) fn bytes(&self) -> u64 {
         let links = self.links.len() * (size_of::<CutLink>() + size_of::<f64>());
-        (self.cells.len() * size_of::<CutAt>() + links) as u64
+        (self.cells.len() * CUT_CELL + links) as u64
     }
 }
 
@@ -107,7 +143,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         let correction = self.corrections.get(slot as usize);
         let interface = self.is_interface(at);
         for (link, back) in self.cuts.links[range].iter().zip(returned) {
-            let arriving = crate::lattice::opposite(usize::from(link.out));
+            let arriving = opposite(usize::from(link.out));
             if interface {
                 *back = wall_link(&self.physics, own, correction, arriving, rho, &link.velocity);
                 continue;

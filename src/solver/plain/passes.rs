@@ -9,7 +9,6 @@ use crate::free_surface::ledger::VectorSum;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, W, opposite};
 use crate::solver::cell::{self, Cell};
-use crate::solver::cuts::{cut_correction, cut_shares};
 use crate::solver::physics::Physics;
 use crate::solver::pool::each;
 use crate::solver::run::Stopped;
@@ -46,6 +45,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             let record = &self.links.boundary()[slot];
             let at = record.cell as usize;
             if !record.touches_wall || !self.is_fluid(at) {
+                record.cut.into_iter().for_each(|place| self.cuts.forget(place));
                 continue;
             }
             let force = self.force_at(at, force);
@@ -60,12 +60,15 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 flat: record.flat.filter(|_| !self.is_interface(at)),
             };
             let state = self.state(at, &force);
-            let cut = record.cut.filter(|_| !self.is_interface(at));
-            self.corrections[slot] = match cut.and_then(|place| self.setup.cuts.get(place as usize)) {
+            self.corrections[slot] = match record.cut {
                 None => cell::wall_correction(&self.physics, &self.f[at], &state, &situation),
-                Some(cut) => {
-                    let shares = cut_shares(cut, record.walls);
-                    cut_correction(&self.physics, &self.f[at], &state, &shares)
+                Some(place) if self.is_interface(at) => {
+                    self.cuts.forget(place);
+                    cell::wall_correction(&self.physics, &self.f[at], &state, &situation)
+                }
+                Some(place) => {
+                    let (fluid, residual) = (situation.fluid, situation.residual);
+                    self.cuts.correction(place, &self.physics, &self.f[at], &state, &residual, fluid)
                 }
             };
         }

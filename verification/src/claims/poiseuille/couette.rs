@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::channel::{Scale, run_steady};
+use super::channel::{Scale, Steady, run_steady};
 use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::exact::couette::PlaneCouette;
 use crate::exact::taylor_couette::TaylorCouette;
@@ -195,11 +195,33 @@ pub const TAYLOR: Claim = Claim {
 };
 
 fn taylor_couette(backend: &dyn Backend, radius: f64) -> Result<Sample, VerifyError> {
+    let setup = cylinders(radius);
+    // The sudden start leaves momentum of alternating sign, Σ(−1)^(x+t) j_x, which bounce-back keeps for ever: 4e-5.
+    let steady = run_steady(backend, &setup, 1e-4, 100, 100_000)?;
+    let (computed, reference) = swirl(radius, &setup, &steady);
+    let mut sample = Sample::l2(radius, &computed, &reference);
+    let plain = sample.error;
+    sample.error *= radius;
+    Ok(sample.with("relative L2 error", plain).with("steps", steady.steps as f64))
+}
+
+/// Angular velocity of the inner cylinder.
+fn spin(radius: f64) -> f64 {
+    0.02 / radius
+}
+
+/// A cell's centre from the axis, in cells.
+fn from_axis(setup: &Setup, cell: usize) -> [f64; 2] {
+    let middle = 0.5 * setup.extents[0] as f64;
+    let [i, j, _] = setup.coordinates(cell);
+    [i as f64 + 0.5 - middle, j as f64 + 0.5 - middle]
+}
+
+/// Cylinders of radius R/2 (turning) and R (at rest) on a staircase of cells.
+pub(super) fn cylinders(radius: f64) -> Setup {
     let cells = 2 * radius as usize + 2;
     let middle = 0.5 * cells as f64;
-    let spin = 0.02 / radius;
-    let at = |[i, j, _]: [usize; 3]| [i as f64 + 0.5 - middle, j as f64 + 0.5 - middle];
-    let distance = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
+    let spin = spin(radius);
     let mut setup = Setup::periodic([cells, cells, 1], Law::Newtonian { mu: 1.0 / 6.0 });
     setup.collision = CollisionChoice::Trt(OddRate::fixed(3.0 / 16.0));
     setup.solid_motion = vec![
@@ -207,26 +229,29 @@ fn taylor_couette(backend: &dyn Backend, radius: f64) -> Result<Sample, VerifyEr
         SolidMotion::default(),
     ];
     setup.solids = (0..setup.cells())
-        .map(|cell| match distance(at(setup.coordinates(cell))) {
-            r if r < 0.5 * radius => 1,
-            r if r > radius => 2,
+        .map(|cell| match from_axis(&setup, cell) {
+            [x, y] if (x * x + y * y).sqrt() < 0.5 * radius => 1,
+            [x, y] if (x * x + y * y).sqrt() > radius => 2,
             _ => 0,
         })
         .collect();
-    // The sudden start leaves momentum of alternating sign, Σ(−1)^(x+t) j_x, which bounce-back keeps for ever: 4e-5.
-    let steady = run_steady(backend, &setup, 1e-4, 100, 100_000)?;
-    let exact =
-        TaylorCouette { inner_radius: 0.5 * radius, outer_radius: radius, inner_rate: spin, outer_rate: 0.0 };
-    let (computed, reference): (Vec<f64>, Vec<f64>) = (0..setup.cells())
+    setup
+}
+
+/// u_θ of every fluid cell, computed and exact.
+pub(super) fn swirl(radius: f64, setup: &Setup, steady: &Steady) -> (Vec<f64>, Vec<f64>) {
+    let exact = TaylorCouette {
+        inner_radius: 0.5 * radius,
+        outer_radius: radius,
+        inner_rate: spin(radius),
+        outer_rate: 0.0,
+    };
+    (0..setup.cells())
         .filter(|&cell| !setup.is_solid(cell))
         .map(|cell| {
-            let ([x, y], u) = (at(setup.coordinates(cell)), steady.fields.velocity[cell]);
-            let r = distance([x, y]);
+            let ([x, y], u) = (from_axis(setup, cell), steady.fields.velocity[cell]);
+            let r = (x * x + y * y).sqrt();
             ((x * u[1] - y * u[0]) / r, exact.velocity(r))
         })
-        .unzip();
-    let mut sample = Sample::l2(radius, &computed, &reference);
-    let plain = sample.error;
-    sample.error *= radius;
-    Ok(sample.with("relative L2 error", plain).with("steps", steady.steps as f64))
+        .unzip()
 }

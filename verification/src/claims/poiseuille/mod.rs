@@ -3,9 +3,10 @@
 pub(super) mod channel;
 pub(super) mod clamped;
 mod couette;
+mod cut;
 mod density;
 mod duct_waves;
-pub mod ducts_pipes;
+mod ducts_pipes;
 mod mutants;
 mod newtonian;
 mod thesis_figures;
@@ -61,6 +62,7 @@ pub static STUDY: Study = Study {
         turning::RING,
         turning::TORQUE,
         turning::ARRAY,
+        cut::TAYLOR,
         density::SI_DENSITY,
         density::UNIFORM_ACCELERATION,
         ducts_pipes::SQUARE_DUCT,
@@ -68,6 +70,7 @@ pub static STUDY: Study = Study {
         ducts_pipes::PIPE,
         ducts_pipes::PIPE_BINGHAM,
         ducts_pipes::PIPE_HB,
+        cut::PIPE,
     ],
     exhibits: &[
         thesis_figures::FIGURES,
