@@ -11,8 +11,8 @@ use super::surface_graph::{Graph, Node};
 use crate::lattice::equilibrium::dot;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{C, Q, W, opposite};
+use crate::setup::Setup;
 use crate::setup::course::Factors;
-use crate::setup::{Setup, SolidMotion};
 
 /// Mass that a boundary cell hands to one of its neighbours in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,9 +172,8 @@ impl HandOver {
 
 /// Numbers of the solids that move.
 fn moving(setup: &Setup) -> impl Iterator<Item = u8> {
-    let moves = |motion: &SolidMotion| motion.velocity != [0.0; 3] || motion.spin != [0.0; 3];
     let list: Vec<u8> =
-        (1..=u8::MAX).zip(&setup.solid_motion).filter(|(_, m)| moves(m)).map(|x| x.0).collect();
+        (1..=u8::MAX).zip(&setup.solid_motion).filter(|(_, m)| m.moves()).map(|x| x.0).collect();
     list.into_iter()
 }
 
@@ -187,8 +186,10 @@ fn surface_of(setup: &Setup, body: u8) -> (Vec<Node>, Graph) {
         .collect();
     cells.sort_unstable();
     cells.dedup();
+    let records = cells.into_iter().filter_map(|cell| Some((cell, boundary_cell(setup, cell as usize)?)));
+    // Cut cells keep mass in their own way [B4].
     let records =
-        cells.into_iter().filter_map(|cell| Some((cell, boundary_cell(setup, cell as usize)?.sources)));
+        records.filter(|(_, record)| record.cut.is_none()).map(|(cell, record)| (cell, record.sources));
     let found: Vec<_> =
         records.filter_map(|(cell, sources)| Some((node(cell, &sources, body)?, sources))).collect();
     let nodes: Vec<Node> = found.iter().map(|(node, _)| *node).collect();
@@ -243,6 +244,7 @@ fn node(cell: u32, sources: &[Source; Q], body: u8) -> Option<Node> {
 mod tests {
     use super::*;
     use crate::rheology::Law;
+    use crate::setup::SolidMotion;
 
     /// A disc of `radius` in a box with a margin of 3 cells, turning and with its centre off the grid's.
     fn disc(radius: f64) -> Setup {

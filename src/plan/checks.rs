@@ -77,6 +77,9 @@ pub(super) fn moving_solids(
     setup: &Setup,
     units: &Units,
 ) -> Result<(), (String, PlanProblem)> {
+    if !setup.cuts.is_empty() && setup.courses.vary() {
+        return Err(("numerics.solid_surface".to_owned(), PlanProblem::CutsInTime));
+    }
     let Some(Leaving { solid, at }) = first_leaving(setup) else { return Ok(()) };
     let name = scene.solids[solid].name.clone();
     let at_m = at.map(|x| x * units.dx_m);

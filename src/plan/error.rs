@@ -33,6 +33,13 @@ pub enum PlanProblem {
          way out: remove the motion (a gate that is opened: leave it out from the start), set `centre_m` on the axis, or \
          move a part of the box with `moving_wall`", .at_m[0], .at_m[1], .at_m[2])]
     SolidLeaves { name: String, at_m: [f64; 3] },
+    /// Cut links, and motions that change in time.
+    #[error(
+        "`central_linear` in a scene with motions that change in time\n  \
+         allowed: `central_linear` with steady motions, `half_way` with all\n  \
+         way out: leave out `numerics.solid_surface`, or the motions"
+    )]
+    CutsInTime,
     /// A part of the initial fluid that is nowhere.
     #[error(
         "`{name}` fills no cell\n  \

@@ -8,7 +8,8 @@ use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::hydrostatic;
 use crate::scene::{
     BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Motion, Operator,
-    PrecisionChoice, RefillChoice, Scene, SolidSurface, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
+    PrecisionChoice, RefillChoice, Scene, SolidSurface, SurfaceGravity, SurfaceRules, WallChoice,
+    YieldChoice,
 };
 use crate::setup::{
     BodyForce, Course, Courses, ExcessRule, Face, FreeSurface, Precision, Refill, Setup, SolidMotion,

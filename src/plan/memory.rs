@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::coupled::added_bytes;
 pub(crate) use super::text::human;
-use crate::boundary::hand_over::HandOver;
 use crate::boundary::cut::cut_count;
+use crate::boundary::hand_over::HandOver;
 use crate::scene::{Scene, SurfaceGravity, YieldChoice};
 use crate::setup::{FreeSurface, Setup, SurfaceForce, WallRule, YieldTreatment};
 pub use crate::solver::boundary_cells::boundary_cells;

@@ -24,17 +24,13 @@ pub(super) struct Leaving {
 #[must_use]
 pub(super) fn first_leaving(setup: &Setup) -> Option<Leaving> {
     setup.solid_motion.iter().enumerate().find_map(|(solid, motion)| {
-        let number = u8::try_from(solid + 1).ok().filter(|_| moves(motion))?;
+        let number = u8::try_from(solid + 1).ok().filter(|_| motion.moves())?;
         let of_solid = (0..setup.cells()).filter(|&cell| setup.solids.get(cell) == Some(&number));
         let centres =
             of_solid.map(|cell| setup.coordinates(cell)).filter(|&at| touches_another(setup, at, number));
         let mut centres = centres.map(|at| at.map(|x| x as f64 + 0.5));
         centres.find(|&at| leaves(setup, motion, at)).map(|at| Leaving { solid, at })
     })
-}
-
-fn moves(motion: &SolidMotion) -> bool {
-    motion.velocity != [0.0; 3] || motion.spin != [0.0; 3]
 }
 
 /// Whether the path of a point, ahead or back, ends or passes more than a cell from any solid: into another one it may go.

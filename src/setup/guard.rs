@@ -71,6 +71,9 @@ pub enum StartError {
         /// What is wrong with it.
         what: &'static str,
     },
+    /// Cut links, and motions that change in time.
+    #[error("links are cut where solids lie only while no motion changes in time")]
+    CutsInTime,
     /// An open face without a free surface.
     #[error("axis {axis}: an open face needs a free surface")]
     OpenWithoutSurface {

@@ -47,6 +47,14 @@ pub struct SolidMotion {
     pub centre: [f64; 3],
 }
 
+impl SolidMotion {
+    /// Whether its surface has a velocity anywhere.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.velocity != [0.0; 3] || self.spin != [0.0; 3]
+    }
+}
+
 /// Which wall velocity half-way bounce-back uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WallRule {

@@ -47,6 +47,9 @@ pub(crate) fn check(setup: &Setup) -> Result<(), StartError> {
 
 /// Cut cells come in order, are not solid, and have shares from 0 to 1.
 fn cuts(setup: &Setup) -> Result<(), StartError> {
+    if !setup.cuts.is_empty() && setup.courses.vary() {
+        return Err(StartError::CutsInTime);
+    }
     let mut before = None;
     for cut in setup.cuts.iter() {
         let cell = cut.cell as usize;

@@ -308,13 +308,17 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         };
         let both = rim.iter_mut().zip(&mut memory);
         let items = both.enumerate().filter(|(_, (rim, _))| !rim.is_empty()).collect();
-        each(self.pool.as_ref(), items, |(number, (rim, memory)): (usize, (&mut Vec<Rim>, &mut Vec<Memory>))| {
-            let mut kept = Kept { rim, memory };
-            let force_of = |local| self.force_of(number, local, force);
-            let is_full = |local| self.is_full(number, local);
-            let is_liquid = |place: Place| self.is_fluid(place) && self.is_full_at(place);
-            correct(self.chosen, &task, &self.blocks[number], &mut kept, &force_of, &is_full, &is_liquid);
-        });
+        each(
+            self.pool.as_ref(),
+            items,
+            |(number, (rim, memory)): (usize, (&mut Vec<Rim>, &mut Vec<Memory>))| {
+                let mut kept = Kept { rim, memory };
+                let force_of = |local| self.force_of(number, local, force);
+                let is_full = |local| self.is_full(number, local);
+                let is_liquid = |place: Place| self.is_fluid(place) && self.is_full_at(place);
+                correct(self.chosen, &task, &self.blocks[number], &mut kept, &force_of, &is_full, &is_liquid);
+            },
+        );
         (self.rim, self.cut_memory) = (rim, memory);
     }
 

@@ -14,8 +14,8 @@ pub(super) const FILE: &str = "equations.md";
 /// Equations of the method, `docs/method.md`.
 const METHOD: [&str; 42] = [
     "L1", "L2", "L3", "L4", "L5", "L6", "L7", "Y1", "Y2", "Y3", "Y4", "Y5", "K1", "K2", "K3", "K4", "K5",
-    "K6", "B1", "B2", "B3", "B4", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "D1", "D2", "D3", "D4", "D5", "D6",
-    "C1", "C2", "C3", "C4", "C5", "C6", "C7",
+    "K6", "B1", "B2", "B3", "B4", "F1", "F2", "F3", "F4", "F5", "F6", "F7", "D1", "D2", "D3", "D4", "D5",
+    "D6", "C1", "C2", "C3", "C4", "C5", "C6", "C7",
 ];
 
 /// Names of the papers.

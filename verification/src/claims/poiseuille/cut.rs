@@ -11,7 +11,8 @@ use lahar::rheology::Law;
 use lahar::setup::WallRule;
 use lahar::solver::run::Backend;
 
-const RADII: Ladder = Ladder { parameter: "R (cells)", short: &[6.0, 12.0], full: &[6.0, 8.0, 12.0, 24.0, 44.0] };
+const RADII: Ladder =
+    Ladder { parameter: "R (cells)", short: &[6.0, 12.0], full: &[6.0, 8.0, 12.0, 24.0, 44.0] };
 
 /// Root mean square over R, R + ¼, R + ½, R + ¾: how the cells lie in the circle is chance.
 fn over_quarters(
@@ -88,7 +89,7 @@ pub const TAYLOR: Claim = Claim {
         })
         .into();
         // The sudden start leaves momentum of alternating sign, Σ(−1)^(x+t) j_x, which bounce-back keeps for ever: 4e-5.
-    let steady = run_steady(backend, &setup, 1e-4, 100, 100_000)?;
+        let steady = run_steady(backend, &setup, 1e-4, 100, 100_000)?;
         let (computed, reference) = swirl(radius, &setup, &steady);
         let mass: f64 = steady.fields.density.iter().map(|rho| rho - 1.0).sum();
         Ok(Sample::l2(radius, &computed, &reference)
