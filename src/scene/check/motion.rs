@@ -40,7 +40,7 @@ fn one(at: &Checker, path: &str, motion: &Motion, scene: &Scene) -> Result<(), S
         }
         Motion::Table { points } => {
             let path = format!("{path}.table.points");
-            at.some(&path, points.len(), "pair of a time and a factor")?;
+            at.some(&path, points.len(), "a pair of a time and a factor")?;
             for (k, pair) in points.windows(2).enumerate() {
                 let (before, found) = (pair[0][0], pair[1][0]);
                 at.ensure(before < found, &format!("{path}[{}]", k + 1), || {
