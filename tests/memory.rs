@@ -32,6 +32,13 @@ fn with_block() -> Setup {
     setup
 }
 
+/// With the surface of a solid that moves.
+fn turning() -> Setup {
+    let mut setup = with_block();
+    setup.solid_motion[0].spin = [0.0, 0.0, 1e-4];
+    setup
+}
+
 fn lagged() -> Setup {
     let mut setup = with_walls([32; 3], WallRule::HalfWay);
     setup.yielding = YieldTreatment::LaggedClamped { tau_min: 0.505, tau_max: 1.8 };
@@ -64,6 +71,7 @@ fn setups() -> Vec<(&'static str, Setup)> {
         ("walls", with_walls([48; 3], WallRule::ViscosityIndependent)),
         ("half-way walls", with_walls([48; 3], WallRule::HalfWay)),
         ("block", with_block()),
+        ("turning block", turning()),
         ("lagged", lagged()),
         ("layers", layers()),
         ("thin layer", thin_layer(SurfaceForce::ByFill)),

@@ -1,7 +1,7 @@
 //! Set-ups that cannot be run are refused before anything is allocated.
 
 use lahar::rheology::Law;
-use lahar::setup::{BodyForce, Face, FlowPoint, Precision, Setup, SolidMotion};
+use lahar::setup::{BodyForce, Course, Face, FlowPoint, Precision, Setup, SolidMotion};
 use lahar::solver::choose::Best;
 use lahar::solver::plain::Plain;
 use lahar::solver::run::{Backend, Runaway, StartError};
@@ -55,6 +55,31 @@ fn half_periodic_axes() {
             let error = refusal(|s| s.faces[axis][side] = Face::NoSlip);
             assert_eq!(error, StartError::HalfPeriodic { axis: name });
         }
+    }
+}
+
+#[test]
+fn faces_that_leave_their_plane() {
+    for (axis, name) in ['x', 'y', 'z'].into_iter().enumerate() {
+        let mut velocity = [0.01; 3];
+        let leaves = |velocity| refusal(|s| s.faces[axis] = [Face::NoSlip, Face::Moving(velocity)]);
+        assert_eq!(leaves(velocity), StartError::FaceLeaves { axis: name, found: 0.01 });
+        velocity[axis] = 0.0;
+        let mut setup = Setup::periodic([4, 3, 2], LAW);
+        setup.faces[axis] = [Face::NoSlip, Face::Moving(velocity)];
+        assert!(Plain.start(&setup).is_ok());
+    }
+}
+
+#[test]
+fn courses_that_say_nothing() {
+    let table = |points: Vec<[f64; 2]>| Course::Table(points.into());
+    let swing = |frequency| Course::Oscillating { mean: 0.0, amplitude: 1.0, frequency, phase: 0.0 };
+    for course in [table(vec![]), table(vec![[2.0, 0.0], [2.0, 1.0]]), swing(f64::NAN), swing(f64::INFINITY)]
+    {
+        let of_face = refusal(|s| s.courses.faces[1][0] = course.clone());
+        assert_eq!(of_face, StartError::Course);
+        assert_eq!(refusal(|s| s.courses.solids = vec![course.clone()]), StartError::Course);
     }
 }
 

@@ -5,6 +5,7 @@ use crate::study::Study;
 
 mod acoustic;
 mod drift;
+mod drum;
 mod elastic;
 mod mirror;
 mod oscillating_wall;
@@ -67,6 +68,7 @@ pub static STUDY: Study = Study {
         resting_layer::OBLIQUE,
         resting_layer::HALF_WAY,
         resting_layer::BED,
+        drum::RIGID,
     ],
     exhibits: &[
         start_up_exhibits::PROFILES,
