@@ -9,6 +9,10 @@ use lahar::solver::run::Backend;
 
 const WATER: Law = Law::Newtonian { mu: 0.05 };
 
+fn square(x: f64) -> f64 {
+    x * x
+}
+
 /// Paints a solid and cuts the links it meets.
 fn put(setup: &mut Setup, is_inside: impl Fn([f64; 3]) -> bool, body: u8) {
     let centre = |cell: usize, setup: &Setup| setup.coordinates(cell).map(|x| x as f64 + 0.5);
@@ -27,7 +31,7 @@ fn tilted_pool() -> Setup {
     put(
         &mut setup,
         |[x, y, z]| {
-            let boulder = (x - 9.3).powi(2) + (y - 6.2).powi(2) + (z - 6.1).powi(2) < 3.4 * 3.4;
+            let boulder = square(x - 9.3) + square(y - 6.2) + square(z - 6.1) < 3.4 * 3.4;
             boulder || z < 2.3 + 0.17 * x + 0.11 * y
         },
         1,
@@ -62,10 +66,10 @@ fn tilted_pool_keeps_mass_and_rest() {
 #[test]
 fn turning_ring_keeps_mass() {
     let mut setup = Setup::periodic([26, 26, 1], WATER);
-    put(&mut setup, |[x, y, _]| !(36.0..132.0).contains(&((x - 13.2).powi(2) + (y - 12.9).powi(2))), 1);
+    put(&mut setup, |[x, y, _]| !(36.0..132.0).contains(&(square(x - 13.2) + square(y - 12.9))), 1);
     let inner = |cell: usize| {
         let [x, y, _] = setup.coordinates(cell);
-        (x as f64 - 12.7).powi(2) + (y as f64 - 12.4).powi(2) < 64.0
+        square(x as f64 - 12.7) + square(y as f64 - 12.4) < 64.0
     };
     let solids: Vec<u8> =
         setup.solids.iter().enumerate().map(|(cell, &s)| if s == 1 && inner(cell) { 2 } else { s }).collect();

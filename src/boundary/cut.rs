@@ -205,6 +205,7 @@ mod tests {
     use crate::lattice::direction;
     use crate::rheology::Law;
     use crate::setup::Face;
+    use crate::vector::{norm_squared, sub};
 
     /// A box of 8 cells a side, solid where `is_inside` says so at the centres.
     fn painted(is_inside: impl Fn([f64; 3]) -> bool) -> Setup {
@@ -242,7 +243,7 @@ mod tests {
     #[test]
     fn shares_through_a_periodic_face() {
         // A ball that is drawn once, at the low face of x; links from the high face lead into it.
-        let ball = |p: [f64; 3]| (p[0] - 0.7).powi(2) + (p[1] - 4.5).powi(2) + (p[2] - 4.5).powi(2) < 1.0;
+        let ball = |p: [f64; 3]| norm_squared(sub(p, [0.7, 4.5, 4.5])) < 1.0;
         let setup = painted(ball);
         let cuts = cut_cells(&setup, ball);
         let cell = setup.index([7, 4, 4]) as u32;

@@ -27,6 +27,9 @@ impl Need {
 pub(super) fn passes(scene: &Scene, setup: &Setup) -> Vec<Need> {
     let mut needs = surface_passes(setup);
     needs.extend(flow_passes(setup));
+    if !setup.cuts.is_empty() {
+        needs.push(Need::of("cut links", true, "`solid_surface` is `central_linear` [B4]", ""));
+    }
     let steady = scene.stop.steady.is_some();
     needs.push(Need::of("steadiness check", steady, "`stop.steady` was given", "runs to the end time"));
     if scene.stop.arrested.is_some() {

@@ -88,6 +88,11 @@ impl Cuts {
         (cell.arriving >> i & 1 != 0).then(|| (cell.first + before.count_ones()) as usize)
     }
 
+    /// Place in the list of a cell of the block.
+    pub(crate) fn place_of(&self, local: usize) -> Option<usize> {
+        self.cells.binary_search_by_key(&local, |cell| usize::from(cell.local)).ok()
+    }
+
     /// Bytes held.
     #[must_use]
     pub(crate) fn bytes(&self) -> u64 {

@@ -88,6 +88,10 @@ impl<P: Physics, E: Element> Observed for FastRun<P, E> {
         for number in acceleration.iter().flatten().chain(self.lag[number].get(local)) {
             hasher.number(*number);
         }
+        let place = self.blocks[number].cuts.place_of(local);
+        for number in place.and_then(|place| self.cut_memory[number].get(place)).into_iter().flatten() {
+            hasher.number(*number);
+        }
     }
 }
 

@@ -82,6 +82,12 @@ impl Cuts {
         correction
     }
 
+    /// What a cut cell remembers of its stress.
+    #[must_use]
+    pub(super) fn memory(&self, place: u32) -> Option<&Memory> {
+        self.memories.get(place as usize)
+    }
+
     /// What a cell that is not full remembers: nothing.
     pub(super) fn forget(&mut self, place: u32) {
         if let Some(memory) = self.memories.get_mut(place as usize) {

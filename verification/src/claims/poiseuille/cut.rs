@@ -1,6 +1,6 @@
 //! Pipes and turning cylinders whose walls lie in their place \[B4\].
 
-use super::channel::run_steady;
+use super::channel::{BINGHAM, THESIS, run_steady};
 use super::couette::{cylinders, swirl};
 use super::ducts_pipes::RoundPipe;
 use crate::claim::{
@@ -53,6 +53,58 @@ pub const PIPE: Claim = Claim {
         let law = Law::Newtonian { mu: 0.2 };
         over_quarters(backend, radius, |r| {
             RoundPipe::new(r, &law, 1.0 / 1.2, 0.01, WallRule::ViscosityIndependent).cut()
+        })
+    },
+};
+
+/// Bingham pipe.
+pub const PIPE_BINGHAM: Claim = Claim {
+    id: "pipe-bingham-cut",
+    title: "In a Bingham pipe within a wall at its true place the error is of second order",
+    tags: &["Y3", "K3", "B4"],
+    measures: "root mean square over the radii R, R + ¼, R + ½, R + ¾ of the relative L2 error; plug half of the radius, \
+               Δt/Δx² = 0.5",
+    reference: Reference { source: "Buckingham 1921, Reiner 1926", uncertainty: 0.0 },
+    metric: Metric::L2,
+    ladder: RADII,
+    order: None,
+    tolerance: Tolerance {
+        value: 0.05,
+        at: Rung::Every,
+        basis: Basis::Derived,
+        because: "the rate bends by 2.5 over the sheared half of the radius: a bend that is missed over a cell, ½·5/R², over \
+                  the root mean square velocity 0.65·0.625 is 6/R²; half of it is carried by the links, 0.085 at R = 6, \
+                  and the law by stress leaves at most half of that",
+    },
+    kind: Kind::Verification,
+    measure: |backend, radius| {
+        over_quarters(backend, radius, |r| {
+            RoundPipe::new(r, &BINGHAM, 0.5, 0.01, WallRule::ViscosityIndependent).cut()
+        })
+    },
+};
+
+/// Herschel-Bulkley pipe.
+pub const PIPE_HB: Claim = Claim {
+    id: "pipe-herschel-bulkley-cut",
+    title: "In a Herschel-Bulkley pipe (n = 0.33) within a wall at its true place the error is below 5 % from R = 6 on",
+    tags: &["Y3", "K3", "B4"],
+    measures: "root mean square over the radii R, R + ¼, R + ½, R + ¾ of the relative L2 error; plug half of the radius, \
+               Δt/Δx² = 0.5",
+    reference: Reference { source: "Q = (8π/G³)∫σ²γ̇ dσ (Rabinowitsch 1929)", uncertainty: 0.0 },
+    metric: Metric::L2,
+    ladder: RADII,
+    order: None,
+    tolerance: Tolerance {
+        value: 0.05,
+        at: Rung::Every,
+        basis: Basis::Derived,
+        because: "as `pipe-bingham-cut`; the bend of the rate is larger, and the law by stress follows it",
+    },
+    kind: Kind::Verification,
+    measure: |backend, radius| {
+        over_quarters(backend, radius, |r| {
+            RoundPipe::new(r, &THESIS, 0.5, 0.01, WallRule::ViscosityIndependent).cut()
         })
     },
 };

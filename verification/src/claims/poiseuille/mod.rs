@@ -71,6 +71,8 @@ pub static STUDY: Study = Study {
         ducts_pipes::PIPE_BINGHAM,
         ducts_pipes::PIPE_HB,
         cut::PIPE,
+        cut::PIPE_BINGHAM,
+        cut::PIPE_HB,
     ],
     exhibits: &[
         thesis_figures::FIGURES,
