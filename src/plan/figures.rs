@@ -3,6 +3,9 @@
 use super::facts::Facts;
 use super::scale::Scales;
 use super::surface::Pool;
+use super::wall_error::Layer;
+use crate::rheology::Law;
+use crate::scene::Boundary;
 use crate::scene::Operator;
 use crate::scene::force::norm;
 use crate::setup::{Setup, WallRule, YieldTreatment};
@@ -65,6 +68,53 @@ pub(super) fn tau_range(basis: &Basis) -> (f64, f64) {
             (clamp(range.0), clamp(range.1))
         }
     }
+}
+
+/// What decides the error of plane walls along which a force drives the fluid; `None` in any other flow, and with walls or
+/// clamps that the sweep does not have.
+pub(super) fn sheared_layer(basis: &Basis) -> Option<Layer> {
+    let n = match basis.facts.laws[..] {
+        [Law::Newtonian { .. } | Law::Bingham { .. }] => 1.0,
+        [Law::HerschelBulkley { n, .. } | Law::PowerLaw { n, .. } | Law::Papanastasiou { n, .. }] => n,
+        _ => return None,
+    };
+    let plane = basis.setup.solids.is_empty() && walled_axes(basis.facts) == 1;
+    let exact = basis.setup.yielding == YieldTreatment::Exact;
+    if !plane || !exact || basis.setup.wall_rule != WallRule::ViscosityIndependent {
+        return None;
+    }
+    let deep = match basis.pool {
+        Some(pool) if pool.level => basis.units.length_to_lattice(pool.depth),
+        Some(_) => return None,
+        None => 0.5 * basis.gap,
+    };
+    let force = along_bed(basis).unwrap_or_else(|| along_walls(basis));
+    let rigid = basis.units.length_to_lattice(basis.facts.curve().plastic_stress() / force);
+    let layer = Layer { sheared: deep - rigid, n, push: push(basis)? };
+    (layer.sheared > 0.0 && layer.push > 0.0 && layer.push.is_finite()).then_some(layer)
+}
+
+/// Share of the expected speed that a step of the force along walls adds; `None` where there are none.
+pub(super) fn push(basis: &Basis) -> Option<f64> {
+    let force = match basis.pool {
+        Some(_) => along_bed(basis)?,
+        None if basis.gap.is_finite() => along_walls(basis),
+        None => return None,
+    };
+    let speed = basis.units.velocity_to_lattice(basis.scales.velocity);
+    (speed > 0.0).then(|| basis.units.force_to_lattice(force) / speed)
+}
+
+/// The driving force along axes that fluid can flow along, N/m³.
+fn along_walls(basis: &Basis) -> f64 {
+    let force = basis.facts.forces.driving_extremes[0];
+    norm(std::array::from_fn(|a| if basis.facts.closed[a] { 0.0 } else { force[a] }))
+}
+
+/// Axes that end at walls.
+fn walled_axes(facts: &Facts) -> usize {
+    let wall = |face: &Boundary| matches!(face, Boundary::NoSlip | Boundary::MovingWall { .. });
+    facts.faces.iter().filter(|pair| pair.iter().any(wall)).count()
 }
 
 /// ε times roundings per step times the steps they can add up over: those of the run, or L²/(8ν) where walls or

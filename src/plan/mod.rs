@@ -24,6 +24,7 @@ mod surface_checks;
 pub mod target;
 mod text;
 mod time_step;
+pub mod wall_error;
 mod warning;
 mod warnings;
 pub mod work;

@@ -4,10 +4,11 @@ use serde::Serialize;
 
 use super::cost::CELL_UPDATES_PER_SECOND;
 use super::coupled::CoupledNumbers;
-use super::figures::{Basis, arrest_thickness, plug_slip, rounding_floor, tau_range};
+use super::figures::{Basis, arrest_thickness, plug_slip, push, rounding_floor, sheared_layer, tau_range};
 use super::memory::{Item, items};
 use super::needs::{Need, passes};
 use super::time_step::{StepRule, reference_viscosity};
+use super::wall_error::{Expected, Sweep};
 use super::warning::Warning;
 use crate::scene::Operator;
 use crate::solver::layout::Layout;
@@ -80,6 +81,10 @@ pub struct Numbers {
     pub plug_slip_m_per_s: f64,
     /// How far it slips over the whole run, m.
     pub plug_slip_m: f64,
+    /// Error to expect of plane walls along which a force drives the fluid; `null` in any other flow.
+    pub wall_error: Option<Expected>,
+    /// Share of the expected speed that a step of the force along walls adds; `null` without walls.
+    pub push_per_step: Option<f64>,
     /// Bytes of each feature.
     pub memory: Vec<Item>,
     /// Bytes per cell of the box, all features.
@@ -157,6 +162,9 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         rounding_floor: rounding_floor(basis, tau_min),
         plug_slip_m_per_s: slip,
         plug_slip_m: slip * scene.stop.end_time_s,
+        wall_error: sheared_layer(basis)
+            .and_then(|layer| Sweep::built_in().ok().and_then(|sweep| sweep.expected(&layer))),
+        push_per_step: push(basis),
         memory,
         bytes_per_cell: bytes as f64 / cells as f64,
         bytes,

@@ -87,6 +87,9 @@ fn scheme(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     row(f, "τ range", format_args!("{:.4} to {}", n.tau_min, tau(n.tau_max)))?;
     stability(f, n)?;
     slip(f, n)?;
+    if let Some(expected) = &n.wall_error {
+        row(f, "error of walls", format_args!("{expected}"))?;
+    }
     row(
         f,
         "populations",

@@ -3,6 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::text::short;
+use super::wall_error::{ERROR_MAX, Expected, PUSH_MAX};
 use crate::scene::Operator;
 
 /// Least density of a grain over that of the fluid without a warning.
@@ -40,6 +41,29 @@ pub enum Warning {
     FewCells {
         /// Cells between walls.
         cells: f64,
+    },
+    /// A force that is large for one step.
+    #[error(
+        "the force adds {} of the largest speed in a step: the flow answers walls in jumps, and may alternate for ever; a \
+         time step of {} s adds {PUSH_MAX}",
+        short(*push),
+        short(*time_step_s)
+    )]
+    Pushed {
+        /// Share of the speed.
+        push: f64,
+        /// Time step at which it is small enough, s.
+        time_step_s: f64,
+    },
+    /// A sheared layer of few cells.
+    #[error(
+        "walls: {expected}; a finer spacing or a smaller time step reduces it: with 6 cells and less than 1e-3 it is below \
+         {} %",
+        short(100.0 * ERROR_MAX)
+    )]
+    WallError {
+        /// The error, and of what.
+        expected: Expected,
     },
     /// Near the limit of stability.
     #[error("less than a factor of 2 below the von Neumann limit")]

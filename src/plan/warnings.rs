@@ -2,6 +2,7 @@
 
 use super::figures::Basis;
 use super::numbers::Numbers;
+use super::wall_error::{ERROR_MAX, FEW_CELLS, PUSH_MAX};
 use super::warning::{Warning, holding};
 use crate::scene::InitialPressure;
 use crate::setup::{Precision, YieldTreatment};
@@ -12,6 +13,7 @@ const LEAST_EXCESS: f64 = 4e-3;
 /// All of them, in the order in which they are printed.
 pub(super) fn warnings(n: &Numbers, basis: &Basis) -> Vec<Warning> {
     let mut all = of_the_flow(n);
+    all.extend(of_the_walls(n));
     all.extend(of_the_scheme(n, basis));
     all.extend(of_the_surface(n));
     all.extend(of_the_weight(basis));
@@ -24,9 +26,17 @@ fn of_the_flow(n: &Numbers) -> Vec<Warning> {
         (n.mach > 0.174, Warning::Mach { mach: n.mach }),
         (tau < 0.55, Warning::TauSmall { tau, spacing_m: n.spacing_m }),
         (tau > 2.0, Warning::TauLarge { tau }),
-        (n.gap_cells < 8.0 && n.depth_cells.is_none(), Warning::FewCells { cells: n.gap_cells }),
+        (n.gap_cells < FEW_CELLS && n.depth_cells.is_none(), Warning::FewCells { cells: n.gap_cells }),
         (n.stability_margin.is_some_and(|margin| margin < 2.0), Warning::NearlyUnstable),
     ])
+}
+
+fn of_the_walls(n: &Numbers) -> Vec<Warning> {
+    let push = n.push_per_step.unwrap_or(0.0);
+    let time_step_s = n.time_step_s * PUSH_MAX / push;
+    let mut all = holding([(push > PUSH_MAX && push.is_finite(), Warning::Pushed { push, time_step_s })]);
+    all.extend(n.wall_error.filter(|e| e.error > ERROR_MAX).map(|expected| Warning::WallError { expected }));
+    all
 }
 
 fn of_the_scheme(n: &Numbers, basis: &Basis) -> Vec<Warning> {

@@ -88,14 +88,24 @@ impl Options {
 /// 1: something does not; 2: bad usage.
 #[must_use]
 pub fn main(study: &Study, backend: &dyn Backend) -> ExitCode {
-    let options = match Options::try_parse() {
-        Ok(options) => options,
-        Err(error) => {
-            // Asking for help is not bad usage. A closed pipe is no reason to fail.
-            let _ = error.print();
-            return if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS };
-        }
-    };
+    parse::<Options>().map_or_else(|code| code, |options| run(study, backend, &options))
+}
+
+/// The command line, or the code to leave with.
+///
+/// # Errors
+/// 2 for bad usage, 0 when help was asked for.
+pub fn parse<T: Parser>() -> Result<T, ExitCode> {
+    T::try_parse().map_err(|error| {
+        // Asking for help is not bad usage. A closed pipe is no reason to fail.
+        let _ = error.print();
+        if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS }
+    })
+}
+
+/// Runs a study with options.
+#[must_use]
+pub fn run(study: &Study, backend: &dyn Backend, options: &Options) -> ExitCode {
     let known: Vec<&str> = ids(study).map(|(_, id, _)| id).collect();
     if let Some(unknown) = options.only.iter().find(|o| !known.contains(&o.as_str())) {
         eprintln!("error: study-{} has nothing called `{unknown}`; --list shows what it has", study.id);
@@ -111,7 +121,7 @@ pub fn main(study: &Study, backend: &dyn Backend) -> ExitCode {
         }
         return ExitCode::SUCCESS;
     }
-    ExitCode::from(u8::from(!execute(study, backend, &options)))
+    ExitCode::from(u8::from(!execute(study, backend, options)))
 }
 
 fn ids(study: &Study) -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {

@@ -16,12 +16,13 @@ pub mod poiseuille;
 pub mod settling;
 pub mod slump;
 pub mod stability;
+pub mod sweep;
 mod unguarded;
 pub mod unsteady;
 pub mod viscosity;
 pub mod work_precision;
 
-static STUDIES: [&Study; 14] = [
+static STUDIES: [&Study; 15] = [
     &moments::STUDY,
     &viscosity::STUDY,
     &poiseuille::STUDY,
@@ -36,6 +37,7 @@ static STUDIES: [&Study; 14] = [
     &piles::STUDY,
     &settling::STUDY,
     &coupling::STUDY,
+    &sweep::STUDY,
 ];
 
 /// All studies, in the order of the report.

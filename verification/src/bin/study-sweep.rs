@@ -1,0 +1,4 @@
+//! Study `sweep`: random steady flows between walls.
+fn main() -> std::process::ExitCode {
+    lahar_verification::claims::sweep::main(&lahar::solver::choose::Best)
+}
