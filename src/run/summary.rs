@@ -224,13 +224,13 @@ pub struct SurfaceSummary {
     /// Mass that left through open faces, kg.
     #[serde(with = "number")]
     pub outflow_kg: f64,
-    /// Mass that came in at moving walls, kg.
+    /// Mass that came in at walls, kg: rounding, part of `mass_residual`.
     #[serde(with = "number")]
     pub from_walls_kg: f64,
     /// Mass that has no cell at the moment, kg; part of `mass_kg`.
     #[serde(with = "number")]
     pub parked_kg: f64,
-    /// (mass + outflow − from walls − from grains − initial)/initial.
+    /// (mass + outflow − from grains − initial)/initial.
     #[serde(with = "number")]
     pub mass_residual: f64,
     /// Momentum at the end, N s.
