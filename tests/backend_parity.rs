@@ -201,7 +201,7 @@ fn build((faces, (surface, (extents, seed), laws, scheme)): Recipe) -> Setup {
         setup.solid_motion =
             vec![SolidMotion { velocity: [0.0; 3], spin: [1e-4, 0.0, -2e-4], centre: [3.0, 2.0, 1.0] }];
         setup.loads = true;
-        if seed.is_multiple_of(2) && seed % 7 >= 2 {
+        if seed.is_multiple_of(2) && seed % 7 >= 2 && !surface {
             // Each solid cell holds a block of its own size about its centre.
             let inside = |p: [f64; 3]| {
                 let at = std::array::from_fn(|a| (p[a].floor() as usize).min(extents[a] - 1));

@@ -4,7 +4,7 @@ use super::links::{Source, boundary_cell, resolve};
 use super::patch::{Patch, mean_direction};
 use crate::lane::Lane;
 use crate::lattice::{C, Q, opposite};
-use crate::setup::{CutCell, Setup, SolidMotion};
+use crate::setup::{CutCell, Setup};
 
 /// Places along a link that are looked at before the surface is pinned down: features thinner than an eighth of a link
 /// may be missed, as they are by the cells themselves.
@@ -135,7 +135,7 @@ pub fn cut_cells(setup: &Setup, is_inside: impl Fn([f64; 3]) -> bool) -> Vec<Cut
         let mut shares = [0.5; Q];
         for out in 1..Q {
             if let (Source::Wall { body, .. }, _) = resolve(setup, at, opposite(out))
-                && is_cut(setup, body)
+                && body > 0
             {
                 shares[out] = share(setup, at, out, &is_inside);
             }
@@ -172,13 +172,6 @@ fn start(setup: &Setup, at: [usize; 3], out: usize, is_inside: &impl Fn([f64; 3]
     })
 }
 
-/// Whether links to a solid are cut. Next to a free surface a solid that moves stays made of stairs: only they hand mass
-/// along a surface that is partly dry \[B1\].
-fn is_cut(setup: &Setup, body: u8) -> bool {
-    let motion = setup.solid_motion.get(usize::from(body).wrapping_sub(1));
-    body > 0 && !(setup.free_surface.is_some() && motion.is_some_and(SolidMotion::moves))
-}
-
 /// Share of one link outside the solids, ½ where no surface is found on it.
 fn share(setup: &Setup, at: [usize; 3], out: usize, is_inside: &impl Fn([f64; 3]) -> bool) -> f64 {
     let start = start(setup, at, out, is_inside);
@@ -204,7 +197,7 @@ mod tests {
     use super::*;
     use crate::lattice::direction;
     use crate::rheology::Law;
-    use crate::setup::Face;
+    use crate::setup::{Face, SolidMotion};
     use crate::vector::{norm_squared, sub};
 
     /// A box of 8 cells a side, solid where `is_inside` says so at the centres.

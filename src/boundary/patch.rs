@@ -21,7 +21,7 @@ const HALVINGS: u32 = 30;
 /// What a paraboloid may miss of the nine points, cells: edges and corners miss more, and have no curvature.
 const ROUGH: f64 = 0.1;
 
-/// Largest curvature that nine points a cell apart can tell.
+/// Largest curvature that nine points a cell apart can tell. Where they bend by more than twice that there is an edge.
 const SHARPEST: f64 = 0.5;
 
 impl Patch {
@@ -62,6 +62,9 @@ fn fit(is_inside: &impl Fn([f64; 3]) -> bool, from: [f64; 3], ahead: [f64; 3]) -
         (row(2) - 2.0 * row(1) + row(0)) / 3.0,
         (z[2][2] - z[2][0] - z[0][2] + z[0][0]) / 4.0,
     ];
+    if bend.iter().any(|bend| bend.abs() > 2.0 * SHARPEST) {
+        return None;
+    }
     let height = (row(0) + row(1) + row(2)) / 9.0 - (bend[0] + bend[1]) / 3.0;
     for (row, y) in z.iter().zip([-1.0, 0.0, 1.0]) {
         for (z, x) in row.iter().zip([-1.0, 0.0, 1.0]) {

@@ -80,6 +80,9 @@ pub(super) fn moving_solids(
     if !setup.cuts.is_empty() && setup.courses.vary() {
         return Err(("numerics.solid_surface".to_owned(), PlanProblem::CutsInTime));
     }
+    if !setup.cuts.is_empty() && setup.free_surface.is_some() {
+        return Err(("numerics.solid_surface".to_owned(), PlanProblem::CutsWithSurface));
+    }
     let Some(Leaving { solid, at }) = first_leaving(setup) else { return Ok(()) };
     let name = scene.solids[solid].name.clone();
     let at_m = at.map(|x| x * units.dx_m);

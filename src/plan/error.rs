@@ -40,6 +40,13 @@ pub enum PlanProblem {
          way out: leave out `numerics.solid_surface`, or the motions"
     )]
     CutsInTime,
+    /// Cut links, and a free surface.
+    #[error(
+        "`central_linear` in a scene with a free surface\n  \
+         allowed: `central_linear` in a box full of fluid; below a free surface still fluid on a tilted bed begins to move\n  \
+         way out: leave out `numerics.solid_surface`"
+    )]
+    CutsWithSurface,
     /// A part of the initial fluid that is nowhere.
     #[error(
         "`{name}` fills no cell\n  \

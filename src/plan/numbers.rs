@@ -112,6 +112,18 @@ pub(super) struct Given<'a> {
     pub layout: Layout,
 }
 
+/// What a run holds, and the sum of its bytes.
+fn counted(setup: &Setup, layout: Layout) -> (Vec<Item>, u64) {
+    let memory = items(setup, layout);
+    let bytes = memory.iter().map(|item| item.bytes).sum();
+    (memory, bytes)
+}
+
+/// The error that the rows of the sweep make likely.
+fn wall_error(basis: &Basis) -> Option<Expected> {
+    Sweep::built_in().ok()?.expected(&sheared_layer(basis)?)
+}
+
 /// All but warnings and grains.
 pub(super) fn numbers(given: &Given) -> Numbers {
     let basis @ Basis { facts, units, setup, scales, pool, steps, gap } = &given.basis;
@@ -125,8 +137,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
     let tau_min = if tau_min.is_finite() { tau_min } else { units.tau_of_viscosity(plastic) };
     let stable_speed = max_stable_speed(&setup.collision, tau_min).ok().map(|limit| limit.speed);
     let slip = plug_slip(basis);
-    let memory = items(setup, given.layout);
-    let bytes = memory.iter().map(|item| item.bytes).sum::<u64>();
+    let (memory, bytes) = counted(setup, given.layout);
     let cell_updates = given.fluid_cells as f64 * *steps as f64;
     // The scales of the viscous and of the plastic stress.
     let (viscous, yielding) = (curve.viscous_stress(u / length), curve.plastic_stress());
@@ -162,8 +173,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         rounding_floor: rounding_floor(basis, tau_min),
         plug_slip_m_per_s: slip,
         plug_slip_m: slip * scene.stop.end_time_s,
-        wall_error: sheared_layer(basis)
-            .and_then(|layer| Sweep::built_in().ok().and_then(|sweep| sweep.expected(&layer))),
+        wall_error: wall_error(basis),
         push_per_step: push(basis),
         memory,
         bytes_per_cell: bytes as f64 / cells as f64,

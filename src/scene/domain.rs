@@ -77,9 +77,6 @@ pub enum End {
     Max,
 }
 
-/// Key names of the faces, `[axis][low, high]`.
-pub const FACE_KEYS: [[&str; 2]; 3] = [["x_min", "x_max"], ["y_min", "y_max"], ["z_min", "z_max"]];
-
 /// What happens at one face.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

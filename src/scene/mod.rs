@@ -28,13 +28,13 @@ use serde::{Deserialize, Serialize};
 
 pub use build::SceneBuilder;
 pub use coupled::{Coupling, GrainRefillChoice, GrainWallChoice, LubricationChoice, LubricationRules};
-pub use domain::{Boundaries, Boundary, Domain, End, FACE_KEYS};
+pub use domain::{Boundaries, Boundary, Domain, End};
 pub use error::{KeyRule, Located, SceneError, SceneProblem};
 pub use fluid::{
     BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialPressure, InitialVelocity, Layer,
     Solid,
 };
-pub use motion::{Motion, Motions};
+pub use motion::{FACE_KEYS, Motion, Motions};
 pub use numerics::{
     Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Numerics, Output, PrecisionChoice, RefillChoice,
     SolidSurface, Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,

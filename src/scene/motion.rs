@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::FACE_KEYS;
+/// Key names of the faces, `[axis][low, high]`.
+pub const FACE_KEYS: [[&str; 2]; 3] = [["x_min", "x_max"], ["y_min", "y_max"], ["z_min", "z_max"]];
 
 /// A factor by which the velocity of a wall or solid is multiplied in time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

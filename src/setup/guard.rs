@@ -74,6 +74,9 @@ pub enum StartError {
     /// Cut links, and motions that change in time.
     #[error("links are cut where solids lie only while no motion changes in time")]
     CutsInTime,
+    /// Cut links, and a free surface.
+    #[error("links are cut where solids lie only without a free surface")]
+    CutsWithSurface,
     /// An open face without a free surface.
     #[error("axis {axis}: an open face needs a free surface")]
     OpenWithoutSurface {

@@ -50,6 +50,9 @@ fn cuts(setup: &Setup) -> Result<(), StartError> {
     if !setup.cuts.is_empty() && setup.courses.vary() {
         return Err(StartError::CutsInTime);
     }
+    if !setup.cuts.is_empty() && setup.free_surface.is_some() {
+        return Err(StartError::CutsWithSurface);
+    }
     let mut before = None;
     for cut in setup.cuts.iter() {
         let cell = cut.cell as usize;

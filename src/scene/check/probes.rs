@@ -72,11 +72,7 @@ fn measure(at: &Checker, path: &str, measure: &Measure, place: &Place) -> Result
             at.position(&format!("{path}.flow_rate.at_m"), *normal, *at_m, size)
         }
         Measure::Front { along, threshold_m, from_m, above_m } => {
-            let path = format!("{path}.front");
-            at.positive(&format!("{path}.threshold_m"), *threshold_m, "m", "it is a depth", "one cell")?;
-            across(at, &format!("{path}.along"), *along, place.up.unwrap_or(Axis::Z))?;
-            optional(at, &format!("{path}.from_m"), Some(*along), *from_m, size)?;
-            optional(at, &format!("{path}.above_m"), place.up, *above_m, size)
+            front(at, &format!("{path}.front"), *along, *threshold_m, [*from_m, *above_m], place)
         }
         Measure::SurfaceProfile { along, at_m, above_m } => {
             section(at, &format!("{path}.surface_profile"), *along, [*at_m, *above_m], place)
@@ -123,6 +119,21 @@ fn measure(at: &Checker, path: &str, measure: &Measure, place: &Place) -> Result
         | Measure::Energies
         | Measure::Momentum => Ok(()),
     }
+}
+
+/// A front: `[from_m, above_m]` are optional places in the box.
+fn front(
+    at: &Checker,
+    path: &str,
+    along: Axis,
+    threshold_m: f64,
+    [from_m, above_m]: [Option<f64>; 2],
+    place: &Place,
+) -> Result<(), SceneError> {
+    at.positive(&format!("{path}.threshold_m"), threshold_m, "m", "it is a depth", "one cell")?;
+    across(at, &format!("{path}.along"), along, place.up.unwrap_or(Axis::Z))?;
+    optional(at, &format!("{path}.from_m"), Some(along), from_m, place.size_m)?;
+    optional(at, &format!("{path}.above_m"), place.up, above_m, place.size_m)
 }
 
 /// Fronts, sections and piles run along the bed, across `up`.

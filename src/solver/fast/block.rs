@@ -1,20 +1,12 @@
 //! One block: what surrounds it, which packs are ordinary, and the links that are not.
 
-use super::cuts::Cuts;
+use super::cut_cells::Cuts;
 use super::layout::Layout;
+pub(crate) use super::place::{Place, place_of};
 use crate::boundary::flat_wall::FlatWall;
 use crate::boundary::links::{BoundaryCell, Source, boundary_cell};
 use crate::lattice::{C, Q, direction, opposite};
 use crate::setup::Setup;
-
-/// A cell by the place of its block and its place in the block; blocks may come and go.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Place {
-    /// Place of the block in [`Layout`].
-    pub block: u32,
-    /// Place in the block.
-    pub local: u32,
-}
 
 /// Where an irregular population comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -317,13 +309,6 @@ fn movers(setup: &Setup, at: [usize; 3], i: usize, body: u8) -> u16 {
         _ => 0,
     };
     leaves(0) | leaves(1) | leaves(2)
-}
-
-/// Place of a cell by its number in the box.
-#[must_use]
-pub(crate) fn place_of(setup: &Setup, layout: &Layout, cell: usize) -> Place {
-    let (block, local) = layout.find(setup.coordinates(cell));
-    Place { block: block as u32, local: local as u32 }
 }
 
 /// The neighbour along an axis that populations come from.

@@ -2,8 +2,7 @@
 
 use super::element::Element;
 use super::layout::NONE;
-use super::links::after;
-use super::task::Task;
+use super::task::{Task, after};
 use crate::boundary::hand_over::Record;
 use crate::lattice::moments::density_excess;
 use crate::solver::books::mass_handed;

@@ -5,18 +5,12 @@ use super::element::{Element, index};
 use super::hand_over::raise;
 use super::rim::Rim;
 use super::task::Task;
+pub(crate) use super::task::after;
 use crate::free_surface::exchange::gas_link;
 use crate::lattice::equilibrium::dot;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, W, opposite};
 use crate::solver::physics::Physics;
-
-/// Populations of a cell after the last collision.
-#[inline]
-pub(crate) fn after<P, E: Element>(task: &Task<P, E>, number: usize, local: usize) -> [f64; Q] {
-    let own = task.old[number].get();
-    std::array::from_fn(|i| own[index::<E>(local, i)].to_f64())
-}
 
 /// ρ of a cell after the last collision, for [`wall_link`]; 1 where the wall rests and ρ is multiplied by zero.
 #[inline]

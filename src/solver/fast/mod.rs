@@ -2,7 +2,8 @@
 
 pub(crate) mod around;
 pub(crate) mod block;
-pub(crate) mod cuts;
+pub(crate) mod cut_cells;
+mod cuts;
 pub(crate) mod element;
 mod grains;
 mod hand_over;
@@ -13,6 +14,7 @@ pub(crate) mod links;
 mod loads;
 pub(crate) mod memory;
 mod moving;
+pub(crate) mod place;
 pub(crate) mod predict;
 pub(crate) mod registers;
 mod report;
@@ -23,6 +25,7 @@ pub(crate) mod stage;
 pub(crate) mod stores;
 pub(crate) mod surface;
 pub(crate) mod task;
+mod wall_pass;
 mod walls;
 #[cfg(target_arch = "x86_64")]
 mod x86;

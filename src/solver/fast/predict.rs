@@ -1,6 +1,6 @@
 //! Bytes of a run, worked out before any of them is taken.
 
-use super::cuts::cut_bytes;
+use super::cut_cells::cut_bytes;
 use super::layout::Layout;
 use super::memory as own;
 use crate::boundary::cut::cut_count;

@@ -294,34 +294,6 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         outcomes
     }
 
-    fn wall_pass(&mut self, force: &[f64; 3]) {
-        if !self.corrected() {
-            return;
-        }
-        let mut rim = std::mem::take(&mut self.rim);
-        let mut memory = std::mem::take(&mut self.cut_memory);
-        let task = WallTask {
-            physics: &self.physics,
-            layout: &self.layout,
-            density: &self.density,
-            sourced: self.setup.stress_source,
-        };
-        let both = rim.iter_mut().zip(&mut memory);
-        let items = both.enumerate().filter(|(_, (rim, _))| !rim.is_empty()).collect();
-        each(
-            self.pool.as_ref(),
-            items,
-            |(number, (rim, memory)): (usize, (&mut Vec<Rim>, &mut Vec<Memory>))| {
-                let mut kept = Kept { rim, memory };
-                let force_of = |local| self.force_of(number, local, force);
-                let is_full = |local| self.is_full(number, local);
-                let is_liquid = |place: Place| self.is_fluid(place) && self.is_full_at(place);
-                correct(self.chosen, &task, &self.blocks[number], &mut kept, &force_of, &is_full, &is_liquid);
-            },
-        );
-        (self.rim, self.cut_memory) = (rim, memory);
-    }
-
     /// Body force of a cell; `None` where it holds no fluid.
     pub(super) fn force_of(&self, number: usize, local: usize, force: &[f64; 3]) -> Option<[f64; 3]> {
         match &self.surface {
@@ -333,13 +305,6 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     /// Whether a cell is no interface cell.
     pub(super) fn is_full(&self, number: usize, local: usize) -> bool {
         self.surface.as_ref().is_none_or(|surface| surface.kinds[number][local] != Kind::Interface)
-    }
-
-    fn is_full_at(&self, place: Place) -> bool {
-        match self.layout.block_at(place.block as usize) {
-            NONE => true,
-            number => self.is_full(number as usize, place.local as usize),
-        }
     }
 
     /// Whether a cell holds fluid.

@@ -83,3 +83,10 @@ pub(crate) struct Outcome {
     /// Σ(ρ − 1) over liquid cells; only with a free surface.
     pub liquid_excess: f64,
 }
+
+/// Populations of a cell after the last collision.
+#[inline]
+pub(crate) fn after<P, E: Element>(task: &Task<P, E>, number: usize, local: usize) -> [f64; Q] {
+    let own = task.old[number].get();
+    std::array::from_fn(|i| own[index::<E>(local, i)].to_f64())
+}

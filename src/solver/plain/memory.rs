@@ -1,7 +1,7 @@
 //! Bytes of the arrays of the plain backend, for the prediction of `plan`; `tests/memory.rs` compares them with what a
 //! run holds.
 
-use super::cuts;
+use super::cut_cells;
 use crate::boundary::cut::CutLink;
 use crate::boundary::links::BoundaryCell;
 use crate::lattice::Q;
@@ -20,7 +20,7 @@ pub(crate) const RECORD: u64 = size_of::<BoundaryCell>() as u64;
 /// Of such a cell: what the wall correction keeps.
 pub(crate) const CORRECTION: u64 = Q as u64 * NUMBER;
 /// Of a cut cell, and of a link of one with what comes back along it.
-pub(crate) const CUT_CELL: u64 = cuts::CUT_CELL as u64;
+pub(crate) const CUT_CELL: u64 = cut_cells::CUT_CELL as u64;
 pub(crate) const CUT_LINK: u64 = size_of::<CutLink>() as u64 + NUMBER;
 /// Of a cell: ω⁺ of the previous step.
 pub(crate) const LAG: u64 = NUMBER;

@@ -5,6 +5,7 @@
 //! does not depend on the number of threads. `run.rs` has the arrays and the order of the passes, `passes.rs` what
 //! every flow needs, `surface` what cells with a kind need besides.
 
+mod cut_cells;
 mod cuts;
 mod grains;
 mod loads;

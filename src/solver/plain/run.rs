@@ -1,6 +1,6 @@
 //! A flow and its time step.
 
-use super::cuts::Cuts;
+use super::cut_cells::Cuts;
 use super::surface::cells::Wet;
 use super::surface::{Design, Surface, SurfacePhysics};
 use crate::boundary::hand_over::HandOver;

@@ -90,17 +90,17 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         booked.close(entries);
         cell.f = arrived;
         cell.rho = 1.0 + density_excess(&arrived);
-        let handed = self.handed(local, fill);
-        entries.from_walls.add(-handed);
-        cell.mass += density_excess(&gained) - handed;
+        cell.mass += density_excess(&gained) - self.handed(local, fill, entries);
         cell.touches = touches;
     }
 
     /// Mass that an interface cell hands along the surfaces of moving solids \[B1\].
-    fn handed(&self, local: usize, fill: f64) -> f64 {
-        hand_over::handed(self.task, self.number, local, |number, there| {
+    fn handed(&self, local: usize, fill: f64, entries: &mut Entries) -> f64 {
+        let handed = hand_over::handed(self.task, self.number, local, |number, there| {
             wetted_share(self.surface.kinds[number][there], fill, self.surface.fill[number][there])
-        })
+        });
+        entries.from_walls.add(-handed);
+        handed
     }
 
     /// Kind of a cell; gas where there is no block.

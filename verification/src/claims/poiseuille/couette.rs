@@ -238,14 +238,30 @@ pub(super) fn cylinders(radius: f64) -> Setup {
     setup
 }
 
-/// u_θ of every fluid cell, computed and exact.
-pub(super) fn swirl(radius: f64, setup: &Setup, steady: &Steady) -> (Vec<f64>, Vec<f64>) {
-    let exact = TaylorCouette {
+/// The exact flow between [`cylinders`].
+fn between(radius: f64) -> TaylorCouette {
+    TaylorCouette {
         inner_radius: 0.5 * radius,
         outer_radius: radius,
         inner_rate: spin(radius),
         outer_rate: 0.0,
-    };
+    }
+}
+
+/// The exact velocity as a start.
+pub(super) fn swirling(radius: f64) -> InitialFlow {
+    let (exact, middle) = (between(radius), radius.floor() + 1.0);
+    Arc::new(move |[i, j, _]| {
+        let (x, y) = (i as f64 + 0.5 - middle, j as f64 + 0.5 - middle);
+        let r = (x * x + y * y).sqrt();
+        let u = if r > 0.0 { exact.velocity(r) / r } else { 0.0 };
+        FlowPoint { density: 1.0, velocity: [-u * y, u * x, 0.0], gradient: [[0.0; 3]; 3] }
+    })
+}
+
+/// u_θ of every fluid cell, computed and exact.
+pub(super) fn swirl(radius: f64, setup: &Setup, steady: &Steady) -> (Vec<f64>, Vec<f64>) {
+    let exact = between(radius);
     (0..setup.cells())
         .filter(|&cell| !setup.is_solid(cell))
         .map(|cell| {

@@ -298,7 +298,9 @@ mod tests {
         for number in 0..2000 {
             let case = Case::new(number);
             assert!((0.1..=1.5).contains(&case.n) && (0.0..0.95).contains(&case.plug), "{}", case.line());
-            assert!((4.0..66.0).contains(&case.cells) && (0.51..=2.0).contains(&case.tau), "{}", case.line());
+            assert!((4.0..66.0).contains(&case.cells) && case.tau >= 0.51, "{}", case.line());
+            // Only the small ones take a larger step where the flow is slow.
+            assert!(number < SMALL || case.tau <= 2.0, "{}", case.line());
         }
     }
 

@@ -55,17 +55,7 @@ impl Flow {
                     known: true,
                 }
             }
-            Place::Duct { aspect } => {
-                // The mean stress at the wall is 1.
-                let force = (1.0 + aspect) / aspect;
-                let mu = 1.0 - case.plug;
-                let exact = RectangularDuct { mu, half_width: 1.0, half_height: aspect, force };
-                let newtonian = case.is_newtonian();
-                // Other laws: the speed of a pipe of the same wall stress, which only sets the scale.
-                let pipe = Pipe { law, radius: 1.0, force: 2.0 }.plug_velocity();
-                let fastest = if newtonian { exact.velocity(0.0, 0.0) } else { pipe };
-                Self { exact: Exact::Duct(exact), force, fastest, sheared: layer, known: newtonian }
-            }
+            Place::Duct { aspect } => Self::in_duct(case, aspect),
             Place::Pipe => {
                 let exact = Pipe { law, radius: 1.0, force: 2.0 };
                 Self {
@@ -101,6 +91,19 @@ impl Flow {
             }
         };
         Ok(flow)
+    }
+
+    /// Of a duct with sides of 2 and 2 × aspect.
+    fn in_duct(case: &Case, aspect: f64) -> Self {
+        // The mean stress at the wall is 1.
+        let force = (1.0 + aspect) / aspect;
+        let mu = 1.0 - case.plug;
+        let exact = RectangularDuct { mu, half_width: 1.0, half_height: aspect, force };
+        let newtonian = case.is_newtonian();
+        // Other laws: the speed of a pipe of the same wall stress, which only sets the scale.
+        let pipe = Pipe { law: case.law(), radius: 1.0, force: 2.0 }.plug_velocity();
+        let fastest = if newtonian { exact.velocity(0.0, 0.0) } else { pipe };
+        Self { exact: Exact::Duct(exact), force, fastest, sheared: 1.0 - case.plug, known: newtonian }
     }
 
     /// Speed at a point, from the middle of channels, pipes and cylinders, from the bed of films and from the resting wall of
