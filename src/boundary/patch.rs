@@ -21,7 +21,7 @@ const HALVINGS: u32 = 30;
 /// What a paraboloid may miss of the nine points, cells: edges and corners miss more, and have no curvature.
 const ROUGH: f64 = 0.1;
 
-/// Largest curvature that nine points a cell apart can tell. Where they bend by more than twice that there is an edge.
+/// Largest curvature that nine points a cell apart can tell; the three points across an edge bend more.
 const SHARPEST: f64 = 0.5;
 
 impl Patch {
@@ -62,7 +62,7 @@ fn fit(is_inside: &impl Fn([f64; 3]) -> bool, from: [f64; 3], ahead: [f64; 3]) -
         (row(2) - 2.0 * row(1) + row(0)) / 3.0,
         (z[2][2] - z[2][0] - z[0][2] + z[0][0]) / 4.0,
     ];
-    if bend.iter().any(|bend| bend.abs() > 2.0 * SHARPEST) {
+    if bend.iter().any(|bend| bend.abs() > SHARPEST) {
         return None;
     }
     let height = (row(0) + row(1) + row(2)) / 9.0 - (bend[0] + bend[1]) / 3.0;
@@ -92,7 +92,7 @@ fn patch(frame: &[[f64; 3]; 3], slope: [f64; 2], bend: [f64; 3]) -> Patch {
     let curved = |a: usize, b: usize| {
         let of = |i: usize, j: usize| along[i][a] * along[j][b];
         let sum = bend[0] * of(0, 0) + bend[1] * of(1, 1) + bend[2] * (of(0, 1) + of(1, 0));
-        (-sum / steep).clamp(-SHARPEST, SHARPEST)
+        -sum / steep
     };
     Patch {
         normal,

@@ -60,19 +60,6 @@ pub(crate) fn local_curvature<L: Lane>(omega: L, odd_omega: L) -> L {
     L::smaller(curvature, L::splat(2.0) * (L::one() / odd_omega - half))
 }
 
-/// [`local_curvature`] of a link that the surface cuts at the share q: min(3q²/(2(τ⁺ − ½)), 2(τ⁻ − ½)).
-///
-/// A central linear link sees the curvature as if Λ were ¾ q².
-///
-/// # Source
-/// docs/method.md \[B4\]; Λ = ¾ q² after Ginzburg and d'Humières 2003 (docs/method.md \[K2\]).
-#[inline(always)]
-pub(crate) fn local_curvature_at<L: Lane>(omega: L, odd_omega: L, share: L) -> L {
-    let half = L::splat(0.5);
-    let curvature = L::splat(1.5) * (share * share) * (omega / (L::one() - half * omega));
-    L::smaller(curvature, L::splat(2.0) * (L::one() / odd_omega - half))
-}
-
 /// What a steady half-way link returns too much, less its weighted mean over the links that hit the
 /// wall; zero on the other links.
 ///

@@ -2,7 +2,7 @@
 
 use crate::boundary::cut::push;
 use crate::boundary::wall_law::CutStress;
-use crate::boundary::wall_slip::local_curvature_at;
+use crate::boundary::wall_slip::local_curvature;
 use crate::lane::Lane;
 use crate::lattice::moments::deviator;
 use crate::lattice::unroll::{directions, three};
@@ -64,18 +64,16 @@ pub(crate) fn cut_correction<L: Lane, P: Physics>(
 ) -> ([L; Q], Memory<L>) {
     let odd_omega = physics.odd_omega(state.omega);
     let departure = physics.odd_departure(h, &state.m);
-    let curved = !physics.thins_or_yields(fluid);
+    let local = local_curvature(state.omega, odd_omega);
+    let keep = (L::splat(2.0) - odd_omega) - odd_omega * local;
     let mut correction = directions(
         #[inline(always)]
         |i| {
             let share = shape.shares[i];
-            let local = if curved { local_curvature_at(state.omega, odd_omega, share) } else { L::zero() };
-            let keep = (L::splat(2.0) - odd_omega) - odd_omega * local;
-            let excess = push(share) * (keep * departure[i]);
-            L::select(share.less(L::zero()), L::zero(), excess)
+            L::select(share.less(L::zero()), L::zero(), push(share) * (keep * departure[i]))
         },
     );
-    if curved {
+    if !physics.thins_or_yields(fluid) {
         return (correction, memory);
     }
     let (along, wall, memory) = stress(state, shape, residual, memory);
@@ -90,9 +88,11 @@ pub(crate) fn cut_correction<L: Lane, P: Physics>(
         |a| along[a] * (u[a] - shape.wall[a]),
     );
     let most = L::larger((moves[0] + moves[1]) + moves[2], L::zero());
+    let carried = wall.gradient * (local / state.m.rho);
     for i in 1..Q {
         let share = shape.shares[i];
-        let slip = push(share) * L::smaller(slips[i], most);
+        let steep = along_normal(i, &shape.normal);
+        let slip = push(share) * L::smaller(slips[i] - carried * (steep * steep), most);
         let back = physics.wall(L::zero(), i, state.m.rho, &along.map(|e| e * slip));
         let wanted = L::and(L::zero().less_equal(share), L::zero().less(wall.stress));
         correction[i] = correction[i] - L::select(wanted, back, L::zero());

@@ -8,7 +8,7 @@ use crate::exact::couette::PlaneCouette;
 use crate::exact::taylor_couette::TaylorCouette;
 use lahar::collision::{CollisionChoice, OddRate};
 use lahar::rheology::Law;
-use lahar::setup::{Face, FlowPoint, Setup, SolidMotion};
+use lahar::setup::{Face, FlowPoint, InitialFlow, Setup, SolidMotion};
 use lahar::solver::run::Backend;
 
 const N: usize = 16;
