@@ -11,6 +11,7 @@ use super::time_step::{StepRule, reference_viscosity};
 use super::wall_error::{Expected, Sweep};
 use super::warning::Warning;
 use crate::scene::Operator;
+use crate::setup::Setup;
 use crate::solver::layout::Layout;
 use crate::stability::max_stable_speed;
 

@@ -2,12 +2,13 @@
 
 use super::around::Around;
 use super::block::Block;
-use super::element::{Aligned, Element};
+use super::element::{Aligned, Element, index};
 use super::layout::Layout;
 use super::rim::Rim;
 use super::sources::Sources;
 use super::surface::record::{InterfaceCell, SurfaceView};
 use crate::boundary::hand_over::HandOver;
+use crate::lattice::Q;
 use crate::setup::Setup;
 use crate::solver::run::Stopped;
 

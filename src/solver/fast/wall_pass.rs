@@ -3,9 +3,8 @@
 use super::element::Element;
 use super::layout::NONE;
 use super::place::Place;
-use super::rim::Rim;
+use super::rim::{Rim, WallTask};
 use super::run::FastRun;
-use super::task::WallTask;
 use super::walls::{Kept, correct};
 use crate::solver::cut_law::Memory;
 use crate::solver::physics::Physics;
