@@ -26,7 +26,7 @@ const HALF_WAY: f64 = 1e-9;
 /// # Source
 /// I. Ginzburg, F. Verhaeghe, D. d'Humières 2008 (docs/method.md \[K2\]), "CLI".
 /// # Verified by
-/// Claims `pipe-newtonian-cut`, `taylor-couette-cut`.
+/// Claims `pipe-newtonian-cut`, `pipe-bingham-cut`.
 #[inline(always)]
 pub fn central_linear<L: Lane>(leaving: L, opposite: L, behind: L, pull: L) -> L {
     leaving + pull * (behind - opposite)

@@ -40,6 +40,13 @@ pub enum PlanProblem {
          way out: leave out `numerics.solid_surface`, or the motions"
     )]
     CutsInTime,
+    /// Cut links at a small relaxation time.
+    #[error(
+        "`central_linear` where the relaxation time falls to {tau:.4}\n  \
+         allowed: at least {limit}; at 0.505 still fluid beside such links begins to swing\n  \
+         way out: a longer time step, or leave out `numerics.solid_surface`"
+    )]
+    CutsAtSmallTau { tau: f64, limit: f64 },
     /// Cut links, and a free surface.
     #[error(
         "`central_linear` in a scene with a free surface\n  \

@@ -43,7 +43,8 @@ pub(crate) struct Books {
 /// A stored population f − w is off by at most half a unit of its own last place, and a collision in the
 /// same precision adds up 19 of them twice (ρ, then the population at rest as what is left), each partial sum
 /// rounded once: 19 + 2 · 19 half-units of numbers whose magnitudes sum to Σ|f − w| ≤ |ρ − 1| + 3|u|, about 1 at
-/// the speed limit and far less elsewhere. That is 29 units; streaming and the sums over cells are exact or
+/// the speed limit and far less elsewhere. That is 29 units. A wall adds five roundings to the populations that it
+/// returns, at most half of them: 1.3 units. Streaming and the sums over cells are exact or
 /// in f64. Roundings of neighbouring cells may agree (uniform flow), so the bound grows with the cells and
 /// not with their root.
 const ROUNDINGS: f64 = 32.0;

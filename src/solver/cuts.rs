@@ -56,7 +56,7 @@ impl Brought {
 /// # Source
 /// Derived here, docs/method.md \[B4\].
 /// # Verified by
-/// Claim `taylor-couette-cut`, test `tilted_box_keeps_mass_and_rest`.
+/// Claim `pipe-newtonian-cut`, test `tilted_box_keeps_mass_and_rest`.
 #[inline(always)]
 pub(crate) fn kept(brought: f64, surplus: f64) -> f64 {
     brought - surplus * brought.abs()

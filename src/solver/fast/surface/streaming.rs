@@ -88,10 +88,9 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
             booked.link(&crossing, &source, gas, entries);
         }
         booked.close(entries);
-        cell.f = arrived;
         cell.rho = 1.0 + density_excess(&arrived);
         cell.mass += density_excess(&gained) - self.handed(local, fill, entries);
-        cell.touches = touches;
+        (cell.f, cell.touches) = (arrived, touches);
     }
 
     /// Mass that an interface cell hands along the surfaces of moving solids \[B1\].

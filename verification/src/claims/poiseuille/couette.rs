@@ -8,7 +8,7 @@ use crate::exact::couette::PlaneCouette;
 use crate::exact::taylor_couette::TaylorCouette;
 use lahar::collision::{CollisionChoice, OddRate};
 use lahar::rheology::Law;
-use lahar::setup::{Face, FlowPoint, InitialFlow, Setup, SolidMotion};
+use lahar::setup::{Face, FlowPoint, Setup, SolidMotion};
 use lahar::solver::run::Backend;
 
 const N: usize = 16;
@@ -246,17 +246,6 @@ fn between(radius: f64) -> TaylorCouette {
         inner_rate: spin(radius),
         outer_rate: 0.0,
     }
-}
-
-/// The exact velocity as a start.
-pub(super) fn swirling(radius: f64) -> InitialFlow {
-    let (exact, middle) = (between(radius), radius.floor() + 1.0);
-    Arc::new(move |[i, j, _]| {
-        let (x, y) = (i as f64 + 0.5 - middle, j as f64 + 0.5 - middle);
-        let r = (x * x + y * y).sqrt();
-        let u = if r > 0.0 { exact.velocity(r) / r } else { 0.0 };
-        FlowPoint { density: 1.0, velocity: [-u * y, u * x, 0.0], gradient: [[0.0; 3]; 3] }
-    })
 }
 
 /// u_θ of every fluid cell, computed and exact.

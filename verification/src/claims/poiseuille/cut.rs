@@ -1,18 +1,15 @@
-//! Pipes and turning cylinders whose walls lie in their place \[B4\].
+//! Pipes whose walls lie in their place \[B4\].
 
-use super::channel::{BINGHAM, THESIS, run_steady};
-use super::couette::{cylinders, swirl, swirling};
+use super::channel::{BINGHAM, THESIS};
 use super::ducts_pipes::RoundPipe;
 use crate::claim::{
     Basis, Claim, Kind, Ladder, Metric, OrderBand, Reference, Rung, Sample, Tolerance, VerifyError,
 };
-use lahar::boundary::cut::cut_cells;
 use lahar::rheology::Law;
 use lahar::setup::WallRule;
 use lahar::solver::run::Backend;
 
-const RADII: Ladder =
-    Ladder { parameter: "R (cells)", short: &[6.0, 12.0], full: &[6.0, 8.0, 12.0, 24.0, 44.0] };
+const RADII: Ladder = Ladder { parameter: "R (cells)", short: &[6.0, 12.0], full: &[6.0, 8.0, 12.0, 24.0] };
 
 /// Root mean square over R, R + ¼, R + ½, R + ¾: how the cells lie in the circle is chance.
 fn over_quarters(
@@ -106,48 +103,5 @@ pub const PIPE_HB: Claim = Claim {
         over_quarters(backend, radius, |r| {
             RoundPipe::new(r, &THESIS, 0.5, 0.01, WallRule::ViscosityIndependent).cut()
         })
-    },
-};
-
-/// Turning cylinders.
-pub const TAYLOR: Claim = Claim {
-    id: "taylor-couette-cut",
-    title: "Around a rotating cylinder at its true place the error is of second order, and mass is kept",
-    tags: &["B4", "K2", "ERRATA 18", "004 Eq 3.38"],
-    measures: "relative L2 error of u_θ between cylinders of radius R/2 (rotating) and R (at rest), TRT Λ = 3/16, τ = 1",
-    reference: Reference { source: "u_θ = A r + B/r (Landau & Lifshitz, §18)", uncertainty: 0.0 },
-    metric: Metric::L2,
-    ladder: Ladder {
-        parameter: "R (cells)",
-        short: &[8.0, 12.0, 16.0],
-        full: &[8.0, 12.0, 16.0, 24.0, 32.0, 48.0],
-    },
-    order: Some(OrderBand { expected: 2.0, band: 0.5, at_least: true }),
-    tolerance: Tolerance {
-        value: 0.03,
-        at: Rung::Every,
-        basis: Basis::Derived,
-        because: "half of the curvature of u_θ at the inner wall, 2B/r³ with B = Ω(R/2)²·4/3 or 10.7 Ω/R, times the square \
-                  of a link's q of at most 1: 5.3 Ω/R over the root mean square 0.28 ΩR of u_θ is 19/R² for the worst link; \
-                  a tenth of it as links of all q average, 0.03 at R = 8",
-    },
-    kind: Kind::Verification,
-    measure: |backend, radius| {
-        let mut setup = cylinders(radius);
-        let middle = 0.5 * setup.extents[0] as f64;
-        setup.cuts = cut_cells(&setup, |[x, y, _]| {
-            let r = ((x - middle) * (x - middle) + (y - middle) * (y - middle)).sqrt();
-            r < 0.5 * radius || r > radius
-        })
-        .into();
-        // From the exact flow: a sudden start leaves momentum of alternating sign, Σ(−1)^(x+t) j_x, which cut links keep for
-        // ever, up to 6e-4 of the largest speed.
-        setup.initial = Some(swirling(radius));
-        let steady = run_steady(backend, &setup, 1e-4, 100, 100_000)?;
-        let (computed, reference) = swirl(radius, &setup, &steady);
-        let mass: f64 = steady.fields.density.iter().map(|rho| rho - 1.0).sum();
-        Ok(Sample::l2(radius, &computed, &reference)
-            .with("mass gained per cell", mass / computed.len() as f64)
-            .with("steps", steady.steps as f64))
     },
 };

@@ -62,7 +62,6 @@ pub static STUDY: Study = Study {
         turning::RING,
         turning::TORQUE,
         turning::ARRAY,
-        cut::TAYLOR,
         density::SI_DENSITY,
         density::UNIFORM_ACCELERATION,
         ducts_pipes::SQUARE_DUCT,
