@@ -16,7 +16,7 @@ fn square(x: f64) -> f64 {
 }
 
 /// Paints a solid and cuts the links it meets.
-fn put(setup: &mut Setup, is_inside: impl Fn([f64; 3]) -> bool, body: u8) {
+fn put(setup: &mut Setup, is_inside: impl Fn([f64; 3]) -> bool + Sync, body: u8) {
     let centre = |cell: usize, setup: &Setup| setup.coordinates(cell).map(|x| x as f64 + 0.5);
     let solids = (0..setup.cells()).map(|cell| if is_inside(centre(cell, setup)) { body } else { 0 });
     setup.solids = solids.collect();
@@ -63,36 +63,54 @@ fn tilted_box_keeps_mass_and_rest() {
     }
 }
 
-/// Below a free surface cut links are refused.
+/// A pool over the tilted bed and the boulder: mass is kept to rounding, and what moves is far below the free fall.
 #[test]
-fn limit_no_cut_links_below_a_surface() {
+fn pool_over_a_tilted_bed_keeps_mass_and_rest() {
     let mut setup = tilted_box();
-    setup.free_surface = Some(FreeSurface::new(vec![0.5; setup.cells()]));
+    let fill = (0..setup.cells()).map(|cell| match setup.coordinates(cell)[2] {
+        _ if setup.is_solid(cell) => 0.0,
+        k if k < 14 => 1.0,
+        14 => 0.3,
+        _ => 0.0,
+    });
+    setup.free_surface = Some(FreeSurface::new(fill.collect()));
+    setup.initial = None;
+    let free_fall = (1e-4 * 14.3_f64).sqrt();
     for backend in [&Plain as &dyn Backend, &Fast::default()] {
-        assert!(matches!(backend.start(&setup), Err(StartError::CutsWithSurface)));
+        let mut run = backend.start(&setup).unwrap_or_else(|error| panic!("{error}"));
+        run.advance(3001).unwrap_or_else(|stopped| panic!("{stopped}"));
+        let ledger = run.ledger().unwrap_or_else(|| panic!("no ledger"));
+        assert!(ledger.mass_residual.abs() < 1e-13, "{}", ledger.mass_residual);
+        let fields = run.fields();
+        let fastest = fields.velocity.iter().flatten().fold(0.0_f64, |most, u| most.max(u.abs()));
+        // Set after seeing 2e-6 of 0.038: where the surface meets the boulder, links in place bring in and take out.
+        assert!(fastest < 2e-4 * free_fall, "{fastest}");
     }
 }
 
-/// A ring of fluid around a turning roller: what goes into the stairs of a solid at one link comes out at another.
+/// A force drives fluid past a cylinder over an uneven bed: mass is kept.
 #[test]
-fn turning_ring_keeps_mass() {
+fn driven_flow_keeps_mass() {
     let mut setup = Setup::periodic([26, 26, 1], WATER);
-    put(&mut setup, |[x, y, _]| !(36.0..132.0).contains(&(square(x - 13.2) + square(y - 12.9))), 1);
-    let inner = |cell: usize| {
-        let [x, y, _] = setup.coordinates(cell);
-        square(x as f64 - 12.7) + square(y as f64 - 12.4) < 64.0
-    };
-    let solids: Vec<u8> =
-        setup.solids.iter().enumerate().map(|(cell, &s)| if s == 1 && inner(cell) { 2 } else { s }).collect();
-    setup.solids = solids;
-    let spin = [0.0, 0.0, 2e-3];
-    setup.solid_motion.push(SolidMotion { spin, centre: [13.2, 12.9, 0.5], ..SolidMotion::default() });
+    let bed = |[x, y, _]: [f64; 3]| y < 3.2 + libm::sin(std::f64::consts::TAU * x / 26.0);
+    put(&mut setup, move |p| bed(p) || square(p[0] - 13.2) + square(p[1] - 15.9) < 30.0, 1);
+    setup.force = BodyForce::Constant([1e-5, 0.0, 0.0]);
     for backend in [&Plain as &dyn Backend, &Fast::default()] {
         let mut run = backend.start(&setup).unwrap_or_else(|error| panic!("{error}"));
         run.advance(2001).unwrap_or_else(|stopped| panic!("{stopped}"));
         let excess = run.totals().mass_excess;
-        // About 300 cells: per step the rounding of a sum, 1e-16 in a random direction.
+        // About 500 cells: per step the rounding of a sum, 1e-16 in a random direction.
         assert!(excess.abs() < 1e-11, "{excess}");
-        assert!(run.totals().kinetic_energy > 1e-4, "nothing turns");
+        assert!(run.totals().kinetic_energy > 1e-4, "nothing flows");
+    }
+}
+
+/// Solids that move are stairs.
+#[test]
+fn limit_no_cut_links_on_moving_solids() {
+    let mut setup = tilted_box();
+    setup.solid_motion = vec![SolidMotion { spin: [0.0, 0.0, 1e-3], ..SolidMotion::default() }];
+    for backend in [&Plain as &dyn Backend, &Fast::default()] {
+        assert!(matches!(backend.start(&setup), Err(StartError::CutsInMotion)));
     }
 }

@@ -186,7 +186,9 @@ impl Shape {
                     && to_m.is_none_or(|to| h < to)
                     && polygon::contains(points_m, [p[a], p[b]])
             }
-            Self::Cone { .. } | Self::HalfSpace { .. } | Self::Heightfield(_) => self.depth(p) > 0.0,
+            Self::Cone { .. } | Self::HalfSpace { .. } => self.depth(p) > 0.0,
+            // Not by its depth, which asks for the steepest place of all the terrain.
+            Self::Heightfield(field) => p[2] < field.height(p[0], p[1]),
             Self::Union(parts) => parts.iter().any(|part| part.contains(p)),
             Self::Intersection(parts) => parts.iter().all(|part| part.contains(p)),
             Self::Difference { from, minus } => {

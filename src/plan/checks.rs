@@ -14,8 +14,6 @@ use crate::units::Units;
 const MACH_MAX: f64 = 0.5;
 /// Least plastic τ, the first column of the stability table.
 const TAU_MIN: f64 = 0.5005;
-/// Least τ at which still fluid beside cut links was seen to rest [B4]: at 0.505 it swings.
-const TAU_MIN_CUT: f64 = 0.52;
 /// Largest plastic τ of the operators whose walls do not depend on it.
 const TAU_MAX: f64 = 50.0;
 /// Largest plastic τ of one-rate operators with half-way walls.
@@ -79,11 +77,8 @@ pub(super) fn moving_solids(
     setup: &Setup,
     units: &Units,
 ) -> Result<(), (String, PlanProblem)> {
-    if !setup.cuts.is_empty() && setup.courses.vary() {
-        return Err(("numerics.solid_surface".to_owned(), PlanProblem::CutsInTime));
-    }
-    if !setup.cuts.is_empty() && setup.free_surface.is_some() {
-        return Err(("numerics.solid_surface".to_owned(), PlanProblem::CutsWithSurface));
+    if !setup.cuts.is_empty() && !setup.can_be_cut() {
+        return Err(("numerics.solid_surface".to_owned(), PlanProblem::CutsInMotion));
     }
     let Some(Leaving { solid, at }) = first_leaving(setup) else { return Ok(()) };
     let name = scene.solids[solid].name.clone();
@@ -160,9 +155,6 @@ pub(super) fn numbers(numbers: &Numbers, setup: &Setup) -> Result<(), PlanProble
     let tau = numbers.tau_plastic;
     if tau < TAU_MIN {
         return Err(PlanProblem::TauTooSmall { tau, dt, limit: TAU_MIN });
-    }
-    if !setup.cuts.is_empty() && numbers.tau_min < TAU_MIN_CUT {
-        return Err(PlanProblem::CutsAtSmallTau { tau: numbers.tau_min, limit: TAU_MIN_CUT });
     }
     let walls = numbers.gap_cells.is_finite() && setup.wall_rule == WallRule::HalfWay;
     let one_rate = !numbers.operator.has_odd_rate();

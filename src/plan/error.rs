@@ -33,27 +33,13 @@ pub enum PlanProblem {
          way out: remove the motion (a gate that is opened: leave it out from the start), set `centre_m` on the axis, or \
          move a part of the box with `moving_wall`", .at_m[0], .at_m[1], .at_m[2])]
     SolidLeaves { name: String, at_m: [f64; 3] },
-    /// Cut links, and motions that change in time.
+    /// Cut links, and solids that move or motions that change in time.
     #[error(
-        "`central_linear` in a scene with motions that change in time\n  \
-         allowed: `central_linear` with steady motions, `half_way` with all\n  \
+        "`central_linear` in a scene where a solid moves, or a motion changes in time\n  \
+         allowed: `central_linear` with solids at rest and steady walls of the box, `half_way` with all\n  \
          way out: leave out `numerics.solid_surface`, or the motions"
     )]
-    CutsInTime,
-    /// Cut links at a small relaxation time.
-    #[error(
-        "`central_linear` where the relaxation time falls to {tau:.4}\n  \
-         allowed: at least {limit}; at 0.505 still fluid beside such links begins to swing\n  \
-         way out: a longer time step, or leave out `numerics.solid_surface`"
-    )]
-    CutsAtSmallTau { tau: f64, limit: f64 },
-    /// Cut links, and a free surface.
-    #[error(
-        "`central_linear` in a scene with a free surface\n  \
-         allowed: `central_linear` in a box full of fluid; below a free surface still fluid on a tilted bed begins to move\n  \
-         way out: leave out `numerics.solid_surface`"
-    )]
-    CutsWithSurface,
+    CutsInMotion,
     /// A part of the initial fluid that is nowhere.
     #[error(
         "`{name}` fills no cell\n  \

@@ -39,9 +39,6 @@ pub(crate) fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
     setup.fluid_of_cell = cells.fluid_of_cell;
     setup.solid_motion = solid_motion(scene, units);
     setup.courses = courses(scene, units);
-    if scene.numerics.solid_surface == SolidSurface::CentralLinear {
-        setup.cuts = cut_cells(&setup, in_solids(scene)).into();
-    }
     setup.yielding = yield_treatment(&scene.numerics.yield_treatment, units);
     setup.collision = collision(facts);
     setup.wall_rule = match scene.numerics.wall_rule {
@@ -54,7 +51,16 @@ pub(crate) fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
         PrecisionChoice::Single => Precision::Single,
         PrecisionChoice::SingleStorage => Precision::SingleStorage,
     };
+    if solid_surface(scene, &setup) == SolidSurface::CentralLinear {
+        setup.cuts = cut_cells(&setup, in_solids(scene)).into();
+    }
     setup
+}
+
+/// Where the surfaces of solids lie: as asked, or in their place where cut links are possible \[B4\].
+fn solid_surface(scene: &Scene, setup: &Setup) -> SolidSurface {
+    let best = if setup.can_be_cut() { SolidSurface::CentralLinear } else { SolidSurface::HalfWay };
+    scene.numerics.solid_surface.unwrap_or(best)
 }
 
 /// Whether a point, in cells, lies in a solid of the scene: as the cells are painted.

@@ -27,8 +27,10 @@ impl Need {
 pub(super) fn passes(scene: &Scene, setup: &Setup) -> Vec<Need> {
     let mut needs = surface_passes(setup);
     needs.extend(flow_passes(setup));
-    if !setup.cuts.is_empty() {
-        needs.push(Need::of("cut links", true, "`solid_surface` is `central_linear` [B4]", ""));
+    if !setup.solids.is_empty() {
+        let cut = !setup.cuts.is_empty();
+        let no = "solids end half-way between cells, or are stairs [B1]";
+        needs.push(Need::of("cut links", cut, "surfaces of solids lie in their place [B4]", no));
     }
     let steady = scene.stop.steady.is_some();
     needs.push(Need::of("steadiness check", steady, "`stop.steady` was given", "runs to the end time"));

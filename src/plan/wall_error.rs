@@ -35,6 +35,8 @@ pub const ERROR_MAX: f64 = 0.015;
 pub const PUSH_MAX: f64 = 0.05;
 /// Cells between walls below which a plan warns.
 pub const FEW_CELLS: f64 = 8.0;
+/// Sheared layer below which a plan warns, cells: what yields is less than one cell's half step.
+pub const THIN_LAYER: f64 = 0.5;
 
 /// Rows that are asked.
 const NEIGHBOURS: usize = 6;

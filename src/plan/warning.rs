@@ -65,6 +65,16 @@ pub enum Warning {
         /// The error, and of what.
         expected: Expected,
     },
+    /// A sheared layer below half a cell.
+    #[error(
+        "walls: the sheared layer is {} cells thick: the plug above it may go on alternating by a per cent of its speed; a finer \
+         spacing helps",
+        short(*cells)
+    )]
+    ThinLayer {
+        /// Its thickness, cells.
+        cells: f64,
+    },
     /// Near the limit of stability.
     #[error("less than a factor of 2 below the von Neumann limit")]
     NearlyUnstable,

@@ -2,7 +2,7 @@
 
 use super::figures::Basis;
 use super::numbers::Numbers;
-use super::wall_error::{ERROR_MAX, FEW_CELLS, PUSH_MAX};
+use super::wall_error::{ERROR_MAX, FEW_CELLS, PUSH_MAX, THIN_LAYER};
 use super::warning::{Warning, holding};
 use crate::scene::InitialPressure;
 use crate::setup::{Precision, YieldTreatment};
@@ -36,6 +36,8 @@ fn of_the_walls(n: &Numbers) -> Vec<Warning> {
     let time_step_s = n.time_step_s * PUSH_MAX / push;
     let mut all = holding([(push > PUSH_MAX && push.is_finite(), Warning::Pushed { push, time_step_s })]);
     all.extend(n.wall_error.filter(|e| e.error > ERROR_MAX).map(|expected| Warning::WallError { expected }));
+    let sheared = n.wall_error.map(|expected| expected.layer.sheared);
+    all.extend(sheared.filter(|&cells| cells < THIN_LAYER).map(|cells| Warning::ThinLayer { cells }));
     all
 }
 

@@ -18,9 +18,10 @@ pub struct Numerics {
     /// Wall velocity used by half-way bounce-back.
     #[serde(default)]
     pub wall_rule: WallChoice,
-    /// Where the surfaces of solids lie.
-    #[serde(default)]
-    pub solid_surface: SolidSurface,
+    /// Where the surfaces of solids lie. Without it in their true place, unless a solid moves or a
+    /// motion changes in time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub solid_surface: Option<SolidSurface>,
     /// Source in the third moments (experimental).
     #[serde(default)]
     pub stress_source: bool,
@@ -180,11 +181,10 @@ pub enum WallChoice {
 }
 
 /// Where the surfaces of solids lie; faces of the box always lie half-way.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SolidSurface {
     /// Half-way between the cells on either side: curved and oblique solids are stairs.
-    #[default]
     HalfWay,
     /// In their true place, by central linear interpolation along the links between cells.
     CentralLinear,

@@ -71,12 +71,9 @@ pub enum StartError {
         /// What is wrong with it.
         what: &'static str,
     },
-    /// Cut links, and motions that change in time.
-    #[error("links are cut where solids lie only while no motion changes in time")]
-    CutsInTime,
-    /// Cut links, and a free surface.
-    #[error("links are cut where solids lie only without a free surface")]
-    CutsWithSurface,
+    /// Cut links, and solids that move or motions that change in time.
+    #[error("links are cut where solids lie only while solids rest and no motion changes in time")]
+    CutsInMotion,
     /// An open face without a free surface.
     #[error("axis {axis}: an open face needs a free surface")]
     OpenWithoutSurface {

@@ -47,11 +47,8 @@ pub(crate) fn check(setup: &Setup) -> Result<(), StartError> {
 
 /// Cut cells come in order, are not solid, and have shares from 0 to 1.
 fn cuts(setup: &Setup) -> Result<(), StartError> {
-    if !setup.cuts.is_empty() && setup.courses.vary() {
-        return Err(StartError::CutsInTime);
-    }
-    if !setup.cuts.is_empty() && setup.free_surface.is_some() {
-        return Err(StartError::CutsWithSurface);
+    if !setup.cuts.is_empty() && !setup.can_be_cut() {
+        return Err(StartError::CutsInMotion);
     }
     let mut before = None;
     for cut in setup.cuts.iter() {

@@ -4,9 +4,9 @@ use crate::boundary::cut::push;
 use crate::boundary::wall_law::CutStress;
 use crate::boundary::wall_slip::local_curvature;
 use crate::lane::Lane;
-use crate::lattice::moments::deviator;
+use crate::lattice::moments::{density_excess, deviator};
 use crate::lattice::unroll::{directions, three};
-use crate::lattice::{C, Q, pair};
+use crate::lattice::{C, Q, W, pair};
 use crate::setup::CutCell;
 use crate::solver::cell::State;
 use crate::solver::physics::Physics;
@@ -47,7 +47,8 @@ impl CutShape {
 /// others it is taken off, and the slip of the law by stress is put in its place.
 ///
 /// # Arguments
-/// `h`: populations before collision. `residual`: F − ∇p. `fluid`: number of the fluid. `memory`: of the step before.
+/// `h`: populations before collision. `residual`: F − ∇p. `by_stress`: number of the fluid, where the law by
+/// stress acts (not below a free surface). `memory`: of the step before.
 /// # Source
 /// docs/method.md \[B4\].
 /// # Verified by
@@ -59,23 +60,17 @@ pub(crate) fn cut_correction<L: Lane, P: Physics>(
     state: &State<L>,
     shape: &CutShape<L>,
     residual: &[L; 3],
-    fluid: u8,
+    by_stress: Option<u8>,
     memory: Memory<L>,
 ) -> ([L; Q], Memory<L>) {
     let odd_omega = physics.odd_omega(state.omega);
     let departure = physics.odd_departure(h, &state.m);
     let local = local_curvature(state.omega, odd_omega);
     let keep = (L::splat(2.0) - odd_omega) - odd_omega * local;
-    let mut correction = directions(
-        #[inline(always)]
-        |i| {
-            let share = shape.shares[i];
-            L::select(share.less(L::zero()), L::zero(), push(share) * (keep * departure[i]))
-        },
-    );
-    if !physics.thins_or_yields(fluid) {
+    let mut correction = without_mean(&shape.shares, &departure, keep);
+    let Some(fluid) = by_stress.filter(|&fluid| physics.thins_or_yields(fluid)) else {
         return (correction, memory);
-    }
+    };
     let (along, wall, memory) = stress(state, shape, residual, memory);
     let distances = directions(
         #[inline(always)]
@@ -98,6 +93,28 @@ pub(crate) fn cut_correction<L: Lane, P: Physics>(
         correction[i] = correction[i] - L::select(wanted, back, L::zero());
     }
     (correction, memory)
+}
+
+/// (1 + κ) (keep d_i − w_i m) on the links into walls, m such that no mass passes them.
+#[inline(always)]
+fn without_mean<L: Lane>(shares: &[L; Q], departure: &[L; Q], keep: L) -> [L; Q] {
+    let pushes = directions(
+        #[inline(always)]
+        |i| L::select(shares[i].less(L::zero()), L::zero(), push(shares[i])),
+    );
+    let sum = density_excess(&directions(
+        #[inline(always)]
+        |i| pushes[i] * departure[i],
+    ));
+    let weight = density_excess(&directions(
+        #[inline(always)]
+        |i| pushes[i] * L::splat(W[i]),
+    ));
+    let mean = sum / L::select(L::zero().less(weight), weight, L::one());
+    directions(
+        #[inline(always)]
+        |i| pushes[i] * (keep * (departure[i] - L::splat(W[i]) * mean)),
+    )
 }
 
 /// |c_i · n|

@@ -2,14 +2,15 @@
 
 use super::block::Block;
 use super::cut_cells::CutRim;
-use super::element::{Element, index};
+use super::element::{Aligned, Element, index};
 use super::layout::NONE;
 use super::links::{after, half_way_link, stored};
 use super::place::Place;
 use super::run::FastRun;
 use super::task::Task;
 use crate::lattice::moments::density_excess;
-use crate::solver::cuts::{Brought, cut_link, kept};
+use crate::lattice::{Q, W};
+use crate::solver::cuts::{Brought, cut_link, taken};
 use crate::solver::physics::Physics;
 use crate::solver::pool::each;
 
@@ -23,24 +24,31 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let mut returned = std::mem::take(&mut self.cut_returned);
         let bodies = self.setup.solid_motion.len();
         let task = self.task([0.0; 3]);
-        let full = |returned: &mut [Vec<f64>], work: &(dyn Fn(usize, &mut Vec<f64>) -> Brought + Sync)| {
-            let items: Vec<_> =
-                returned.iter_mut().enumerate().filter(|(_, list)| !list.is_empty()).collect();
-            each(self.pool.as_ref(), items, |(number, list)| work(number, list))
-        };
-        let parts = full(&mut returned, &|number, list| {
+        let items: Vec<_> = returned.iter_mut().enumerate().filter(|(_, list)| !list.is_empty()).collect();
+        let parts = each(self.pool.as_ref(), items, |(number, list): (usize, &mut Vec<f64>)| {
             let mut brought = Brought::new(bodies);
             self.block_returns(&task, number, list, &mut brought);
             brought
         });
         let mut brought = Brought::new(bodies);
         parts.iter().for_each(|part| brought.merge(part));
-        let surplus = brought.surplus();
-        full(&mut returned, &|number, list| {
-            self.settle(number, list, &surplus);
-            Brought::default()
-        });
+        self.settle_all(&mut returned, &brought.surplus());
         self.cut_returned = returned;
+    }
+
+    /// From what the links of full cells would bring in to what they return, in all blocks.
+    fn settle_all(&mut self, returned: &mut [Vec<f64>], surplus: &[f64]) {
+        let mut old = std::mem::take(&mut self.old);
+        let both = returned.iter_mut().zip(&mut old).enumerate();
+        let items: Vec<_> = both.filter(|(_, (list, _))| !list.is_empty()).collect();
+        each(
+            self.pool.as_ref(),
+            items,
+            |(number, (list, own)): (usize, (&mut Vec<f64>, &mut Aligned<E>))| {
+                self.settle(number, list, own.get_mut(), surplus);
+            },
+        );
+        self.old = old;
     }
 
     /// Cut cells of a block that hold fluid, and whether they are full.
@@ -68,7 +76,9 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                     *back = stored::<E>(half);
                     continue;
                 }
-                let behind = at.behind.and_then(|(place, direction)| self.sent(place, direction));
+                // Between a solid and a grain as between two solids.
+                let behind = at.behind.filter(|&(place, _)| self.is_fluid(place));
+                let behind = behind.and_then(|(place, direction)| self.sent(place, direction));
                 *back = cut_link(&self.physics, &own, correction, &at.link, behind, rho);
                 brought.add(cell.body, *back);
             }
@@ -86,19 +96,24 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         }
     }
 
-    /// From what the links of full cells would bring in to what they return.
-    fn settle(&self, number: usize, returned: &mut [f64], surplus: &[f64]) {
+    /// From what the links of full cells would bring in to what they return. `own`: populations of the block.
+    fn settle(&self, number: usize, returned: &mut [f64], own: &mut [E], surplus: &[f64]) {
         let block = &self.blocks[number];
-        let own = self.old[number].get();
         for (cell, full) in self.wet_cuts(block, number) {
             if !full {
                 continue;
             }
             let first = cell.first as usize;
             let links = &block.cuts.links[first..first + cell.arriving.count_ones() as usize];
-            for (at, back) in links.iter().zip(&mut returned[first..]) {
-                let leaving = own[index::<E>(usize::from(cell.local), usize::from(at.link.out))].to_f64();
-                *back = stored::<E>(leaving + kept(*back, surplus[usize::from(cell.body)]));
+            let returned = &mut returned[first..first + links.len()];
+            let off = taken(returned, surplus[usize::from(cell.body)]);
+            let place = |i: usize| index::<E>(usize::from(cell.local), i);
+            for i in 0..Q {
+                own[place(i)] = E::from_f64(own[place(i)].to_f64() - W[i] * off);
+            }
+            for (at, back) in links.iter().zip(returned) {
+                let leaving = own[place(usize::from(at.link.out))].to_f64();
+                *back = stored::<E>(leaving + *back);
             }
         }
     }

@@ -4,6 +4,7 @@ use super::element::MOST;
 use super::layout::Layout;
 use super::registers::Registers;
 use crate::boundary::flat_wall::FlatWall;
+use crate::lane::Lane;
 use crate::lattice::Q;
 use crate::lattice::unroll::{directions, six, three};
 use crate::solver::cell::{Situation, State, wall_correction};
@@ -39,6 +40,8 @@ pub(crate) struct WallTask<'a, P> {
     pub density: &'a [Vec<f64>],
     /// \[K6\].
     pub sourced: bool,
+    /// Whether cut links are corrected, and whether by the law by stress.
+    pub cut: [bool; 2],
 }
 
 /// What a correction takes from around its cell.
@@ -156,11 +159,18 @@ impl Columns {
                 m: task.physics.moments(&h, &load(&self.force)),
                 omega: R::load_wide(&self.omega[part..]),
             };
+            if alike.cut && !task.cut[0] {
+                for column in &mut self.f {
+                    R::store_wide(R::Pack::zero(), &mut column[part..]);
+                }
+                continue;
+            }
             if alike.cut {
                 let residual = load(&self.residual);
                 let (shape, memory) = self.cut.load::<R>(part);
+                let by_stress = task.cut[1].then_some(alike.fluid);
                 let (correction, memory) =
-                    cut_correction(task.physics, &h, &state, &shape, &residual, alike.fluid, memory);
+                    cut_correction(task.physics, &h, &state, &shape, &residual, by_stress, memory);
                 for i in 0..Q {
                     R::store_wide(correction[i], &mut self.f[i][part..]);
                 }

@@ -235,9 +235,10 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         lap(&mut self.seconds[1]);
         std::mem::swap(&mut self.old, &mut self.new);
         self.fresh = false;
+        self.cut_pass();
+        lap(&mut self.seconds[1]);
         self.exchange_with_grains();
         lap(&mut self.seconds[3]);
-        self.cut_pass();
         self.book_loads();
         lap(&mut self.seconds[1]);
         self.surface_pass(&force);

@@ -23,6 +23,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             layout: &self.layout,
             density: &self.density,
             sourced: self.setup.stress_source,
+            cut: [self.setup.cuts_by_stress, self.setup.cut_by_stress()],
         };
         let both = rim.iter_mut().zip(&mut memory);
         let items = both.enumerate().filter(|(_, (rim, _))| !rim.is_empty()).collect();

@@ -67,13 +67,13 @@ impl Cuts {
         h: &Cell,
         state: &State,
         residual: &[f64; 3],
-        fluid: u8,
+        by_stress: Option<u8>,
     ) -> Cell {
         let at = place as usize;
         let (Some(shape), Some(memory)) = (self.shapes.get(at), self.memories.get_mut(at)) else {
             return [0.0; Q];
         };
-        let (correction, now) = cut_correction(physics, h, state, shape, residual, fluid, *memory);
+        let (correction, now) = cut_correction(physics, h, state, shape, residual, by_stress, *memory);
         *memory = now;
         correction
     }

@@ -3,10 +3,11 @@
 use super::cut_cells::CutAt;
 use super::run::PlainRun;
 use super::surface::SurfacePhysics;
+use crate::boundary::cut::CutLink;
 use crate::lattice::moments::density_excess;
-use crate::lattice::opposite;
-use crate::solver::cell::wall_link;
-use crate::solver::cuts::{Brought, cut_link, kept};
+use crate::lattice::{Q, W, opposite};
+use crate::solver::cell::{Cell, wall_link};
+use crate::solver::cuts::{Brought, cut_link, taken};
 use crate::solver::physics::Physics;
 
 impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
@@ -25,14 +26,12 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             }
         }
         let surplus = brought.surplus();
-        for (k, cut) in self.cuts.cells.iter().enumerate() {
+        for k in 0..self.cuts.cells.len() {
             let (at, range) = self.cut_cell(k);
-            if !self.is_fluid(at) || self.is_interface(at) {
-                continue;
-            }
-            for (link, back) in self.cuts.links[range.clone()].iter().zip(&mut returned[range]) {
-                let leaving = self.post[at][usize::from(link.out)];
-                *back = leaving + kept(*back, surplus[usize::from(cut.body)]);
+            if self.is_fluid(at) && !self.is_interface(at) {
+                let surplus = surplus[usize::from(self.cuts.cells[k].body)];
+                let links = &self.cuts.links[range.clone()];
+                settle(&mut self.post[at], links, &mut returned[range], surplus);
             }
         }
         self.cuts.returned = returned;
@@ -60,10 +59,22 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 *back = wall_link(&self.physics, own, correction, arriving, rho, &link.velocity);
                 continue;
             }
-            let behind =
-                link.behind.map(|(cell, direction)| self.post[cell as usize][usize::from(direction)]);
+            // Between a solid and a grain as between two solids.
+            let behind = link.behind.filter(|&(cell, _)| self.is_fluid(cell as usize));
+            let behind = behind.map(|(cell, direction)| self.post[cell as usize][usize::from(direction)]);
             *back = cut_link(&self.physics, own, correction, link, behind, rho);
             brought.add(body, *back);
         }
+    }
+}
+
+/// From what the links of a full cell would bring in to what they return.
+fn settle(own: &mut Cell, links: &[CutLink], returned: &mut [f64], surplus: f64) {
+    let off = taken(returned, surplus);
+    for i in 0..Q {
+        own[i] -= W[i] * off;
+    }
+    for (link, back) in links.iter().zip(returned) {
+        *back += own[usize::from(link.out)];
     }
 }

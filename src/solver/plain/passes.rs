@@ -66,9 +66,11 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                     self.cuts.forget(place);
                     cell::wall_correction(&self.physics, &self.f[at], &state, &situation)
                 }
+                Some(_) if !self.setup.cuts_by_stress => [0.0; Q],
                 Some(place) => {
-                    let (fluid, residual) = (situation.fluid, situation.residual);
-                    self.cuts.correction(place, &self.physics, &self.f[at], &state, &residual, fluid)
+                    let by_stress = self.setup.cut_by_stress().then_some(situation.fluid);
+                    let residual = situation.residual;
+                    self.cuts.correction(place, &self.physics, &self.f[at], &state, &residual, by_stress)
                 }
             };
         }

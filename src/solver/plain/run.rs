@@ -130,8 +130,8 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         self.move_walls();
         self.wall_pass(&force);
         self.collide_pass(&force)?;
-        self.exchange_with_grains();
         self.cut_pass();
+        self.exchange_with_grains();
         self.exchange_mass();
         self.stream_pass();
         self.book_links();

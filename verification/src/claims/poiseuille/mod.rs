@@ -3,12 +3,13 @@
 pub(super) mod channel;
 pub(super) mod clamped;
 mod couette;
-mod cut;
 mod density;
 mod duct_waves;
-mod ducts_pipes;
+mod ducts;
 mod mutants;
 mod newtonian;
+mod pipes;
+mod place;
 mod thesis_figures;
 mod turning;
 mod work_precision;
@@ -64,25 +65,22 @@ pub static STUDY: Study = Study {
         turning::ARRAY,
         density::SI_DENSITY,
         density::UNIFORM_ACCELERATION,
-        ducts_pipes::SQUARE_DUCT,
+        ducts::SQUARE_DUCT,
         duct_waves::WAVES,
-        ducts_pipes::PIPE,
-        ducts_pipes::PIPE_BINGHAM,
-        ducts_pipes::PIPE_HB,
-        cut::PIPE,
-        cut::PIPE_BINGHAM,
-        cut::PIPE_HB,
+        pipes::PIPE,
+        pipes::PIPE_BINGHAM,
+        pipes::PIPE_HB,
+        pipes::CUT_PIPE,
+        pipes::CUT_PIPE_BINGHAM,
+        pipes::CUT_PIPE_HB,
+        pipes::BY_STRESS_PIPE_HB,
+        place::SPHERE,
     ],
-    exhibits: &[
-        thesis_figures::FIGURES,
-        ducts_pipes::STAIRCASE,
-        work_precision::WORK,
-        work_precision::SECONDS,
-    ],
+    exhibits: &[thesis_figures::FIGURES, pipes::STAIRCASE, work_precision::WORK, work_precision::SECONDS],
     mutants: mutants::MUTANTS,
     limits: &[
-        "Round walls are staircases of cells: pipes and rotating cylinders converge at first order with either wall \
-         rule; the rules differ in the size of the error.",
+        "On stairs of cells pipes and rotating cylinders converge at first order with either wall rule; the rules differ in the \
+         size of the error. Scenes have solids in their place unless one of them moves.",
         "For n > 1 the shear rate leaves the yield surface more steeply than linearly, and the order falls to 1 + 1/n.",
         "The odd relaxation time follows the apparent viscosity. Above yield the tangent viscosity would be right, and \
          most of the error of Bingham and Herschel-Bulkley channels comes from the difference.",

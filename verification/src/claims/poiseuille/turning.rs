@@ -1,8 +1,8 @@
 //! Cylinders made of stairs: the mass between turning ones, torques, and the balance of an array.
 
+use super::couette::cylinders;
 use crate::claim::{Basis, Claim, Kind, Ladder, Metric, Reference, Rung, Sample, Tolerance, VerifyError};
 use crate::exact::taylor_couette::TaylorCouette;
-use lahar::collision::{CollisionChoice, OddRate};
 use lahar::rheology::Law;
 use lahar::setup::{BodyForce, Setup, SolidMotion};
 use lahar::solver::run::Backend;
@@ -115,26 +115,15 @@ pub const ARRAY: Claim = Claim {
     measure: array,
 };
 
-/// Torques on both cylinders.
+/// Torques on both [`cylinders`].
 fn torque(backend: &dyn Backend, outer: f64) -> Result<Sample, VerifyError> {
-    let cells = 2 * outer as usize + 2;
-    let middle = 0.5 * cells as f64;
     let (inner, spin, mu) = (0.5 * outer, 0.02 / outer, 1.0 / 6.0);
-    let mut setup = Setup::periodic([cells, cells, 1], Law::Newtonian { mu });
-    setup.collision = CollisionChoice::Trt(OddRate::fixed(3.0 / 16.0));
-    let centre = [middle, middle, 0.5];
-    let turning = SolidMotion { spin: [0.0, 0.0, spin], centre, ..SolidMotion::default() };
-    setup.solid_motion = vec![turning, SolidMotion { centre, ..SolidMotion::default() }];
+    let mut setup = cylinders(outer);
+    // A torque is about the centre of its solid.
+    for solid in &mut setup.solid_motion {
+        solid.centre = [0.5 * setup.extents[0] as f64, 0.5 * setup.extents[1] as f64, 0.5];
+    }
     setup.loads = true;
-    let number = |cell| {
-        let at = setup.coordinates(cell);
-        match libm::hypot(at[0] as f64 + 0.5 - middle, at[1] as f64 + 0.5 - middle) {
-            r if r < inner => 1,
-            r if r > outer => 2,
-            _ => 0,
-        }
-    };
-    setup.solids = (0..setup.cells()).map(number).collect();
     let mut run = backend.start(&setup)?;
     // Thirty times the slowest decay, (π/gap)² ν: 1e-13 of the start-up is left.
     let gap = outer - inner;

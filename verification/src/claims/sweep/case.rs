@@ -95,13 +95,6 @@ impl Operator {
     }
 }
 
-/// How a solid that is no plane between cells is put on the grid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Surface {
-    /// By whole cells, with the wall half-way to the next one.
-    Stairs,
-}
-
 /// A steady flow between walls, in numbers without unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
@@ -121,8 +114,6 @@ pub struct Case {
     pub speed: f64,
     /// Operator.
     pub operator: Operator,
-    /// How curved walls are put on the grid.
-    pub surface: Surface,
 }
 
 /// Cases below this number are small: the gate runs them.
@@ -187,8 +178,8 @@ impl Draw {
     }
 }
 
-/// Least τ − ½ of small cases: three runs of some twelve relaxations, cells²·1.2/((τ − ½) n) each, take a second at most.
-fn affordable(place: Place, cells: f64, n: f64) -> f64 {
+/// Least τ − ½ that a number of cell updates allows: three runs of some twelve relaxations, cells²·1.2/((τ − ½) n) each.
+fn affordable(place: Place, cells: f64, n: f64, updates: f64) -> f64 {
     let all = match place {
         Place::Channel | Place::Couette | Place::Film { .. } => cells,
         Place::Duct { aspect } => aspect * cells * cells,
@@ -199,11 +190,13 @@ fn affordable(place: Place, cells: f64, n: f64) -> f64 {
     } else {
         cells
     };
-    36.0 * 1.2 * across * across * all / (n.min(1.0) * UPDATES)
+    36.0 * 1.2 * across * across * all / (n.min(1.0) * updates)
 }
 
-/// Cell updates of a small case.
+/// Cell updates of a small case: a second at most.
 const UPDATES: f64 = 4e6;
+/// Cell updates of the others.
+const MANY_UPDATES: f64 = 4e7;
 
 impl Case {
     /// The case of a number.
@@ -241,8 +234,10 @@ impl Case {
             }
             _ => cells,
         };
-        let tau = 0.5 + if small { excess.max(affordable(place, cells, n)) } else { excess };
-        Self { number, place, n, plug, cells, tau, speed, operator, surface: Surface::Stairs }
+        let least = affordable(place, cells, n, if small { UPDATES } else { MANY_UPDATES });
+        // Only the small ones take a larger step than any scene should.
+        let tau = 0.5 + excess.max(if small { least } else { least.min(1.5) });
+        Self { number, place, n, plug, cells, tau, speed, operator }
     }
 
     /// The law in units in which stress and shear rate at the wall are 1.

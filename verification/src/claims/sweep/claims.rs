@@ -17,9 +17,10 @@ pub const WALLS: Claim = Claim {
     title: "A hundred random flows between walls have one steady state each, near the exact one",
     tags: &["B1", "B3", "Y3", "K2", "K3"],
     measures: "cases among ten with a fault that no plan warns of: a run from rest or from 3 × the exact flow that is stopped or does \
-               not become steady, two states more than 1e-3 of the speed apart (5e-2 on stairs), an error of the largest speed \
-               above 1.5 % from 12 cells on with n ≥ 0.25, or above that with half-way walls by more than 1 % (5 % on stairs, where a \
-               run that half-way walls leave unsteady too is no fault)",
+               not become steady, two states more than 1e-3 of the speed apart (5e-2 between curved walls), an error of the largest speed \
+               above 1.5 % from 12 cells on between plane walls with n ≥ 0.25, or above that with half-way walls on stairs by more \
+               than 1 % (5 % around turning cylinders, which are stairs, and where a run that half-way walls leave unsteady too is no \
+               fault); a plan's warning comes from other cases than these",
     reference: Reference { source: "exact solutions of each flow (docs/references.md)", uncertainty: 0.0 },
     metric: Metric::Absolute,
     ladder: Ladder { parameter: "first case", short: RUNGS, full: RUNGS },

@@ -4,13 +4,14 @@ use std::fmt;
 
 use super::case::Place;
 use super::row::{End, Row};
-use lahar::plan::wall_error::{ERROR_MAX, FEW_CELLS, Layer, PUSH_MAX, Sweep};
+use lahar::plan::wall_error::{ERROR_MAX, FEW_CELLS, Layer, PUSH_MAX, Sweep, THIN_LAYER};
 
 /// Depth of a film, cells, below which a plan warns.
 const SHALLOW: f64 = 4.0;
 /// What may come on top of the error with half-way walls.
 pub const MARGIN: f64 = 0.01;
-/// The same on stairs, whose own error is tens of per cent: the share of the speed within which two states count as one there.
+/// The same around turning cylinders, which are stairs with an error of tens of per cent: the share of the speed within which
+/// two states count as one there.
 pub const MARGIN_ON_STAIRS: f64 = 0.05;
 /// What is wrong with a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,11 +56,12 @@ impl Judgement {
         let announced = is_announced(row, sweep);
         let mut faults = Vec::new();
         let flat = row.case.place.is_flat();
+        let stairs = matches!(row.case.place, Place::Cylinders { .. });
         for end in [&row.rest, &row.fast] {
             match end {
                 End::BlewUp(_) => faults.push(Fault::BlewUp),
                 // What stairs keep swinging whatever the wall rule is not the rule's.
-                End::Unsteady(..) if !flat && matches!(row.half_way, End::Unsteady(..)) => {}
+                End::Unsteady(..) if stairs && matches!(row.half_way, End::Unsteady(..)) => {}
                 End::Unsteady(found, _) => {
                     faults.push(Fault::Unsteady(found.swing.unwrap_or(found.residual)))
                 }
@@ -78,7 +80,7 @@ impl Judgement {
         if fine && error.abs() > ERROR_MAX {
             faults.push(Fault::Error(error));
         }
-        let margin = if flat { MARGIN } else { MARGIN_ON_STAIRS };
+        let margin = if stairs { MARGIN_ON_STAIRS } else { MARGIN };
         if error.abs() > half_way.abs() + margin {
             faults.push(Fault::WorseThanHalfWay(error, half_way));
         }
@@ -91,7 +93,7 @@ impl Judgement {
     }
 }
 
-/// Whether `lahar plan` warns of few cells, of a large force per step, or of an error beyond what is allowed.
+/// Whether `lahar plan` warns of few cells, a thin sheared layer, a large force per step, or an error beyond what is allowed.
 fn is_announced(row: &Row, sweep: &Sweep) -> bool {
     let few = match row.case.place {
         Place::Channel | Place::Duct { .. } | Place::Couette => row.case.cells < FEW_CELLS,
@@ -101,5 +103,5 @@ fn is_announced(row: &Row, sweep: &Sweep) -> bool {
     let layer = Layer { sheared: row.sheared, n: row.case.n, push: row.push };
     let driven = matches!(row.case.place, Place::Channel | Place::Film { .. });
     let large = driven && sweep.expected(&layer).is_some_and(|expected| expected.error > ERROR_MAX);
-    few || row.push > PUSH_MAX || large
+    few || row.push > PUSH_MAX || driven && row.sheared < THIN_LAYER || large
 }

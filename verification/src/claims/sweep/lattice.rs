@@ -6,6 +6,7 @@ use super::case::{Case, Place};
 use super::flow::Flow;
 use crate::claim::VerifyError;
 use crate::claims::poiseuille::channel::Scale;
+use lahar::boundary::cut::cut_cells;
 use lahar::setup::{BodyForce, Face, FlowPoint, FreeSurface, Setup, SolidMotion, WallRule};
 use lahar::solver::run::Fields;
 
@@ -86,7 +87,7 @@ impl Grid {
                 setup.faces[1] = [Face::NoSlip, Face::Moving([self.case.speed, 0.0, 0.0])];
             }
             Place::Film { slope } => self.incline(&mut setup, slope),
-            Place::Pipe | Place::Annulus { .. } | Place::Cylinders { .. } => self.solids(&mut setup),
+            Place::Pipe | Place::Annulus { .. } | Place::Cylinders { .. } => self.solids(&mut setup, wall),
         }
         self.start(&mut setup, start);
         setup
@@ -100,29 +101,33 @@ impl Grid {
         setup.free_surface = Some(FreeSurface::new(fill));
     }
 
-    /// Solid 1 is the inner cylinder, solid 2 what lies outside.
-    fn solids(&self, setup: &mut Setup) {
+    /// Solid 1 is the inner cylinder, solid 2 what lies outside: in their place as in scenes where they rest, with
+    /// half-way walls and around turning ones on stairs.
+    fn solids(&self, setup: &mut Setup, wall: WallRule) {
         let inner = match self.case.place {
             Place::Annulus { ratio } | Place::Cylinders { ratio } => ratio * self.case.cells,
             _ => 0.0,
         };
+        let outer = self.case.cells;
         let turning = matches!(self.case.place, Place::Cylinders { .. });
         let spin = if turning { self.case.speed / inner } else { 0.0 };
         let centre = self.extents.map(|n| 0.5 * n as f64);
         let turns = SolidMotion { spin: [0.0, 0.0, spin], centre, ..SolidMotion::default() };
         setup.solid_motion = vec![turns, SolidMotion::default()];
-        let kind = |cell: usize| {
-            let [y, z] = self.place(setup.coordinates(cell));
-            let r = libm::sqrt(y * y + z * z);
-            if r < inner {
-                1
-            } else if r > self.case.cells {
-                2
-            } else {
-                0
-            }
+        let axes = if turning { [0, 1] } else { [1, 2] };
+        let radius = |point: [f64; 3]| {
+            let [y, z] = axes.map(|a: usize| point[a] - centre[a]);
+            libm::sqrt(y * y + z * z)
+        };
+        let kind = |cell: usize| match radius(setup.coordinates(cell).map(|x| x as f64 + 0.5)) {
+            r if r < inner => 1,
+            r if r > outer => 2,
+            _ => 0,
         };
         setup.solids = (0..setup.cells()).map(kind).collect();
+        if wall == WallRule::ViscosityIndependent && setup.can_be_cut() {
+            setup.cuts = cut_cells(setup, |point| !(inner..=outer).contains(&radius(point))).into();
+        }
     }
 
     /// Starts from `times` the exact flow, gradients by differences over a cell; films with the pressure of their weight, so

@@ -11,9 +11,9 @@ use lahar::solver::steady::{SteadyOutcome, SteadyRule, run_to_steady};
 /// judged.
 const STEADY: f64 = 1e-4;
 
-/// The same between curved walls on stairs. A sudden start leaves momentum of alternating sign, Σ(−1)^(x+t) j_x, which
-/// bounce-back keeps for ever; the errors of stairs are ten times as large.
-const STEADY_ON_STAIRS: f64 = 5e-3;
+/// The same between curved walls. A sudden start leaves momentum of alternating sign, Σ(−1)^(x+t) j_x, which
+/// bounce-back keeps for ever, up to 5e-3 of the speed.
+const STEADY_ALONG_CURVES: f64 = 5e-3;
 
 /// Difference between the two starts that is one state, in tolerances at which runs end.
 const ONE_STATE: f64 = 10.0;
@@ -176,7 +176,7 @@ impl Row {
 }
 
 const fn tolerance(case: &Case) -> f64 {
-    if case.place.is_flat() { STEADY } else { STEADY_ON_STAIRS }
+    if case.place.is_flat() { STEADY } else { STEADY_ALONG_CURVES }
 }
 
 fn run(backend: &dyn Backend, grid: &Grid, wall: WallRule, start: f64) -> Result<End, VerifyError> {
