@@ -165,14 +165,15 @@ proptest! {
         }
     }
 
-    /// ω⁺ lies in \[0, 2) and inside the clamps, for every law, treatment, stress and history.
+    /// ω⁺ lies in \[0, 2\] and inside the clamps, for every law, treatment, stress and history. It is 2 where the viscosity of a
+    /// thickening law near rest is below a rounding of τ⁺ = ½.
     #[test]
     fn omega_stays_in_range(law in any_law(), rho in 0.8_f64..1.2, q in -14.0_f64..1.0, previous in 0.0_f64..1.99) {
         let q = ten_to(q);
         let law = law.prepare();
         for treatment in TREATMENTS {
             let omega: f64 = relaxation::omega(&law, treatment, rho, q, previous);
-            prop_assert!((0.0..2.0).contains(&omega), "{law:?} {treatment:?} {q:e}: {omega}");
+            prop_assert!((0.0..=2.0).contains(&omega), "{law:?} {treatment:?} {q:e}: {omega}");
             if let (YieldTreatment::ImplicitClamped { tau_min, tau_max } | YieldTreatment::LaggedClamped { tau_min, tau_max }, None) = (treatment, law.constant_tau()) {
                 prop_assert!(omega >= 1.0 / tau_max && omega <= 1.0 / tau_min);
             }
