@@ -111,7 +111,7 @@ pub const MUTANTS: &[Mutant] = &[
         erratum: "ERRATA 18 (004 Eq 3.38)",
         description: "u_w = u_p + r × ω: a rotating cylinder drags the fluid the wrong way.",
         caught_by: "taylor-couette",
-        rung: Some(12.0),
+        rung: Some(16.0),
         subject: Subject::Backend(|| Box::new(Mistaken(Mistake::SpinReversed))),
     },
     Mutant {
