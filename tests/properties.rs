@@ -165,15 +165,14 @@ proptest! {
         }
     }
 
-    /// ω⁺ lies in \[0, 2\] and inside the clamps, for every law, treatment, stress and history. It is 2 where the viscosity of a
-    /// thickening law near rest is below a rounding of τ⁺ = ½.
+    /// ω⁺ lies in \[0, 2) and inside the clamps; at 2 where a thickening law's viscosity is below a rounding of τ⁺.
     #[test]
     fn omega_stays_in_range(law in any_law(), rho in 0.8_f64..1.2, q in -14.0_f64..1.0, previous in 0.0_f64..1.99) {
-        let q = ten_to(q);
-        let law = law.prepare();
+        let (q, law) = (ten_to(q), law.prepare());
         for treatment in TREATMENTS {
             let omega: f64 = relaxation::omega(&law, treatment, rho, q, previous);
-            prop_assert!((0.0..=2.0).contains(&omega), "{law:?} {treatment:?} {q:e}: {omega}");
+            let vanishing = law.thickens() && omega == 2.0;
+            prop_assert!((0.0..2.0).contains(&omega) || vanishing, "{law:?} {treatment:?} {q:e}: {omega}");
             if let (YieldTreatment::ImplicitClamped { tau_min, tau_max } | YieldTreatment::LaggedClamped { tau_min, tau_max }, None) = (treatment, law.constant_tau()) {
                 prop_assert!(omega >= 1.0 / tau_max && omega <= 1.0 / tau_min);
             }
@@ -393,8 +392,7 @@ fn exact_free_slip_octant_equals_the_periodic_box() {
     octant.faces = [[Face::FreeSlip; 2]; 3];
     octant.initial = Some(Arc::new(flow));
     let (mut a, mut b) = (start(&whole), start(&octant));
-    a.advance(30).expect("a slow flow");
-    b.advance(30).expect("a slow flow");
+    [&mut a, &mut b].map(|run| run.advance(30).expect("a slow flow"));
     for cell in 0..octant.cells() {
         let at = whole.index(octant.coordinates(cell));
         assert_eq!(a.populations(at), b.populations(cell), "{:?}", octant.coordinates(cell));
