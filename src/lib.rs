@@ -61,7 +61,7 @@
 //! | B1 | half-way walls | `boundary/bounce_back.rs` | `poiseuille-newtonian-bgk-slip` |
 //! | B2 | mirror planes | `boundary/links.rs` | `mirror-quarter-duct` |
 //! | B3 | viscosity-independent walls | `boundary/wall_slip.rs` | `poiseuille-newtonian-b3` |
-//! | B4 | solids at their true place | `boundary/cut.rs`, `solver/cut_law.rs` | `pipe-newtonian-cut` |
+//! | B4 | solids at their true place | `boundary/cut.rs`, `solver/cuts.rs` | `pipe-newtonian-cut` |
 //! | F1 | mass exchange | `free_surface/exchange.rs` | `film-newtonian`, `surface-pattern-carried` |
 //! | F2 | gas links | `free_surface/exchange.rs` | `pool-at-rest` |
 //! | F3 | force in interface cells | `free_surface/force.rs` | `film-newtonian`, `falling-drop-by-fill` |

@@ -149,7 +149,6 @@ fn build((faces, (surface, (extents, seed), laws, scheme)): Recipe) -> Setup {
         if seed.is_multiple_of(2) && seed % 7 >= 2 {
             // Only solids at rest lie in their place.
             setup.solid_motion = vec![SolidMotion::default()];
-            setup.cuts_by_stress = seed.is_multiple_of(3) && !surface;
             // Each solid cell holds a block of its own size about its centre.
             let inside = |p: [f64; 3]| {
                 let at = std::array::from_fn(|a| (p[a].floor() as usize).min(extents[a] - 1));

@@ -3,7 +3,6 @@
 use rayon::prelude::*;
 
 use super::links::{Source, boundary_cell, resolve};
-use super::patch::{Patch, mean_direction};
 use crate::lane::Lane;
 use crate::lattice::{C, Q, opposite};
 use crate::setup::{CutCell, Setup};
@@ -86,21 +85,6 @@ pub(crate) fn cut_links<'a>(
     })
 }
 
-/// Mean velocity of the walls that the links of a cut cell lead into.
-#[must_use]
-pub(crate) fn wall_velocity(sources: &[Source; Q]) -> [f64; 3] {
-    let (mut sum, mut count) = ([0.0; 3], 0.0);
-    for source in sources {
-        if let Source::Wall { velocity, .. } = source {
-            for a in 0..3 {
-                sum[a] += velocity[a];
-            }
-            count += 1.0;
-        }
-    }
-    sum.map(|u| if count > 0.0 { u / count } else { 0.0 })
-}
-
 /// Whose mass the links of a cut cell count into: the solid on the first of them that is not half-way.
 #[must_use]
 pub(crate) fn body(sources: &[Source; Q], cut: &CutCell) -> u8 {
@@ -137,21 +121,12 @@ pub fn cut_cells(setup: &Setup, is_inside: impl Fn([f64; 3]) -> bool + Sync) -> 
     if setup.solids.is_empty() {
         return Vec::new();
     }
-    let by_stress = setup.cut_by_stress();
     // In index order, whatever the number of threads.
-    (0..setup.cells())
-        .into_par_iter()
-        .filter_map(|cell| cut_cell(setup, cell, &is_inside, by_stress))
-        .collect()
+    (0..setup.cells()).into_par_iter().filter_map(|cell| cut_cell(setup, cell, &is_inside)).collect()
 }
 
 /// The cut cell at an index; `None` if solid or without a link that is cut elsewhere than half-way.
-fn cut_cell(
-    setup: &Setup,
-    cell: usize,
-    is_inside: &impl Fn([f64; 3]) -> bool,
-    by_stress: bool,
-) -> Option<CutCell> {
+fn cut_cell(setup: &Setup, cell: usize, is_inside: &impl Fn([f64; 3]) -> bool) -> Option<CutCell> {
     if setup.is_solid(cell) {
         return None;
     }
@@ -164,22 +139,7 @@ fn cut_cell(
             shares[out] = share(setup, at, out, is_inside);
         }
     }
-    if shares == [0.5; Q] {
-        return None;
-    }
-    let flat = Patch { normal: [0.0; 3], curvature: [0.0; 6] };
-    let Patch { normal, curvature } = if by_stress { patch(setup, at, &shares, is_inside) } else { flat };
-    Some(CutCell { cell: cell as u32, shares, normal, curvature })
-}
-
-/// The surface beside a cell.
-fn patch(setup: &Setup, at: [usize; 3], shares: &[f64; Q], is_inside: &impl Fn([f64; 3]) -> bool) -> Patch {
-    let cut = || (1..Q).filter(|&out| shares[out] != 0.5);
-    let first = cut().next().unwrap_or(1);
-    // A link says where the surface is the better the nearer it is.
-    let towards = |out: usize| C[out].map(|c| f64::from(c) / (0.1 + shares[out]));
-    let ahead = mean_direction(cut().map(towards)).or_else(|| mean_direction([towards(first)].into_iter()));
-    Patch::ahead(is_inside, start(setup, at, first, is_inside), ahead.unwrap_or([1.0, 0.0, 0.0]))
+    (shares != [0.5; Q]).then_some(CutCell { cell: cell as u32, shares })
 }
 
 /// The centre of a cell, or its image beyond a periodic face from which the link leads into the solid where that is

@@ -5,7 +5,6 @@ pub mod cut;
 pub mod flat_wall;
 pub(crate) mod hand_over;
 pub mod links;
-pub(crate) mod patch;
 mod surface_graph;
 pub mod wall_law;
 pub mod wall_slip;

@@ -1,7 +1,6 @@
 //! The law by stress \[B3\]: the slip of a flat wall from the stress at the wall.
 
 use crate::lane::Lane;
-use crate::lattice::Q;
 use crate::rheology::Flow;
 use crate::rheology::relaxation::omega_of_shear_rate;
 
@@ -109,45 +108,6 @@ pub fn slip<L: Lane, F: Fn(L) -> Flow<L>, O: Fn(L) -> L>(wall: &WallStress<L>, f
     let most = t / third;
     let slip = L::smaller(L::larger((t - s) / third - wall.floor, zero), most);
     L::select(active, slip, zero)
-}
-
-/// What a wall cell with cut links needs for their slip \[B4\]; lattice units.
-#[derive(Clone, Copy, Debug)]
-pub struct CutStress<L = f64> {
-    /// Shear stress of the cell on planes along the wall, ≥ 0.
-    pub stress: L,
-    /// How it grows towards the wall, by cells.
-    pub gradient: L,
-    /// ω⁺ of the cell.
-    pub omega: L,
-}
-
-/// δ (mean of γ̇ from the cell to the wall − γ̇ at the cell): what the velocity at the cell has more than a straight
-/// profile over the distance δ to the wall, for every link.
-///
-/// The stress at the wall is between none and twice that of the cell.
-///
-/// # Arguments
-/// `wall`: the cell. `flow`: the law γ̇(σ). `distances`: δ by link, cells; negative where there is no wall.
-/// # Source
-/// docs/method.md \[B4\]; derived there.
-/// # Verified by
-/// Claims `pipe-bingham-cut`, `pipe-herschel-bulkley-cut`.
-#[inline(always)]
-pub fn cut_slips<L: Lane, F: Fn(L) -> Flow<L>>(wall: &CutStress<L>, flow: F, distances: &[L; Q]) -> [L; Q] {
-    let s = wall.stress;
-    let own = flow(s);
-    let mut slips = [L::zero(); Q];
-    for i in 1..Q {
-        if !L::any(L::zero().less_equal(distances[i])) {
-            continue;
-        }
-        let distance = L::larger(distances[i], L::zero());
-        let top = L::smaller(L::larger(s + wall.gradient * distance, L::zero()), s + s);
-        let close = (top - s).abs().less_equal(L::splat(CLOSE) * s);
-        slips[i] = distance * (mean(&flow, [s, top], [&own, &flow(top)], close) - own.rate);
-    }
-    slips
 }
 
 /// The law at a stress of either sign: γ̇ is odd, its slope and integral even.

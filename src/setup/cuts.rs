@@ -10,9 +10,4 @@ pub struct CutCell {
     /// Per direction: share of the link along c_i that lies outside the surface, 0 to 1; ½ along links that no surface
     /// cuts and along those into faces of the box.
     pub shares: [f64; Q],
-    /// Unit normal of the surface, into the solid; zero where no law by stress asks for it
-    /// ([`crate::setup::Setup::cut_by_stress`]).
-    pub normal: [f64; 3],
-    /// Curvature of the surface: xx, yy, zz, xy, xz, yz, 1/cells; positive where the fluid is inside the bend.
-    pub curvature: [f64; 6],
 }

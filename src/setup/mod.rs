@@ -246,9 +246,6 @@ pub struct Setup {
     pub courses: Courses,
     /// Where the surfaces of solids cut links, in order of the cells \[B4\]; empty: half-way everywhere.
     pub cuts: Arc<[CutCell]>,
-    /// Whether cut links have the law by stress and the correction of \[B4\], an experiment: better in simple flows of
-    /// yield-stress fluids, but rigid material at rest in corners begins to move. No scene asks for it.
-    pub cuts_by_stress: bool,
     /// Per cell: index into `fluids`. Empty: all cells hold `fluids[0]`.
     pub fluid_of_cell: Vec<u8>,
     /// The constitutive laws, lattice units.
@@ -290,16 +287,6 @@ impl Setup {
         !self.courses.vary() && self.solid_motion.iter().all(rests)
     }
 
-    /// Whether the law by stress acts at cut links: if it is asked for, in boxes full of a fluid whose viscosity depends on
-    /// the flow.
-    #[must_use]
-    pub fn cut_by_stress(&self) -> bool {
-        self.cuts_by_stress
-            && self.free_surface.is_none()
-            && self.wall_rule == WallRule::ViscosityIndependent
-            && self.fluids.iter().any(|law| law.constant_tau().is_none())
-    }
-
     /// A fluid at rest in a fully periodic box, with the default scheme.
     #[must_use]
     pub fn periodic(extents: [usize; 3], law: Law) -> Self {
@@ -310,7 +297,6 @@ impl Setup {
             solid_motion: Vec::new(),
             courses: Courses::default(),
             cuts: Arc::default(),
-            cuts_by_stress: false,
             fluid_of_cell: Vec::new(),
             fluids: vec![law],
             yielding: YieldTreatment::Exact,

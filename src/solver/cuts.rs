@@ -67,21 +67,19 @@ pub(crate) fn taken(brought: &[f64], surplus: f64) -> f64 {
 /// What a cut link brings in to a cell that is full of fluid \[B4\]: what comes back less what left.
 ///
 /// # Arguments
-/// `own`: post-collision populations of the cell. `correction`: what its wall correction takes from each that leaves.
-/// `behind`: the population of the cell straight behind. `rho`: density of the cell.
+/// `own`: post-collision populations of the cell. `behind`: the population of the cell straight behind. `rho`: density of
+/// the cell.
 #[inline]
 pub(crate) fn cut_link<P: Physics>(
     physics: &P,
     own: &Cell,
-    correction: Option<&Cell>,
     link: &CutLink,
     behind: Option<f64>,
     rho: f64,
 ) -> f64 {
     let out = usize::from(link.out);
     let opposite = own[opposite(out)];
-    let leaving = own[out] - correction.map_or(0.0, |c| c[out]);
-    let back = central_linear(leaving, opposite, behind.unwrap_or(opposite), link.pull);
+    let back = central_linear(own[out], opposite, behind.unwrap_or(opposite), link.pull);
     physics.wall(back, out, rho, &link.velocity.map(|u| link.push * u)) - own[out]
 }
 

@@ -6,7 +6,6 @@ pub(crate) mod cell;
 pub(crate) mod check;
 pub mod choose;
 pub(crate) mod compiled;
-pub(crate) mod cut_law;
 pub(crate) mod cuts;
 pub mod fast;
 pub mod initial;

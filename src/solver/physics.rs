@@ -5,7 +5,7 @@
 //! each, and the right one pays nothing for it. The equations of the free surface are in
 //! [`crate::free_surface`].
 
-use crate::boundary::wall_law::{CutStress, WallStress};
+use crate::boundary::wall_law::WallStress;
 use crate::boundary::{bounce_back, wall_law, wall_slip};
 use crate::collision::Collision;
 use crate::lane::Lane;
@@ -63,12 +63,6 @@ pub trait Physics: Clone + Send + Sync + 'static {
 
     /// Slip of a flat wall along the traction \[B3\].
     fn slip<L: Lane>(&self, fluid: u8, wall: &WallStress<L>) -> L;
-
-    /// Whether the viscosity of a fluid depends on the flow.
-    fn thins_or_yields(&self, fluid: u8) -> bool;
-
-    /// Slips of cut links at distances from the wall \[B4\]; links of a negative distance do not count.
-    fn cut_slips<L: Lane>(&self, fluid: u8, wall: &CutStress<L>, distances: &[L; Q]) -> [L; Q];
 }
 
 /// The physics of docs/method.md, for one law type and one collision type.
@@ -123,21 +117,6 @@ impl<R: Rheology, C: Collision> Physics for Standard<R, C> {
             |omega| L::one() / self.collision.odd_omega(omega) - L::splat(0.5),
         );
         wall_law::slip(wall, &fluid)
-    }
-
-    fn thins_or_yields(&self, fluid: u8) -> bool {
-        self.laws[usize::from(fluid)].constant_tau().is_none()
-    }
-
-    #[inline(always)]
-    fn cut_slips<L: Lane>(&self, fluid: u8, wall: &CutStress<L>, distances: &[L; Q]) -> [L; Q] {
-        let (law, slow) = (&self.laws[usize::from(fluid)], self.slow[usize::from(fluid)].as_ref());
-        wall_law::cut_slips(
-            wall,
-            #[inline(always)]
-            |sigma| relaxation::flow(law, self.treatment, slow, wall.omega, sigma),
-            distances,
-        )
     }
 
     #[inline(always)]

@@ -2,11 +2,10 @@
 
 use super::layout::Layout;
 use super::place::{Place, place_of};
-use crate::boundary::cut::{CutLink, body, cut_links, wall_velocity};
+use crate::boundary::cut::{CutLink, body, cut_links};
 use crate::boundary::links::BoundaryCell;
 use crate::lattice::opposite;
 use crate::setup::Setup;
-use crate::solver::cut_law::{CutShape, Memory};
 
 /// A cut cell of a block.
 #[derive(Clone, Debug)]
@@ -21,8 +20,6 @@ pub(crate) struct CutRim {
     pub arriving: u32,
     /// Whose mass its links count into.
     pub body: u8,
-    /// What its wall correction depends on.
-    pub shape: CutShape,
 }
 
 /// A link of a cut cell.
@@ -67,7 +64,6 @@ impl Cuts {
             first,
             arriving,
             body: body(&record.sources, cut),
-            shape: CutShape::new(cut, record.walls, wall_velocity(&record.sources)),
         });
         Some((self.cells.len() - 1) as u16)
     }
@@ -78,11 +74,6 @@ impl Cuts {
         let cell = self.cells.get(usize::from(cell))?;
         let before = cell.arriving & ((1 << i) - 1);
         (cell.arriving >> i & 1 != 0).then(|| (cell.first + before.count_ones()) as usize)
-    }
-
-    /// Place in the list of a cell of the block.
-    pub(crate) fn place_of(&self, local: usize) -> Option<usize> {
-        self.cells.binary_search_by_key(&local, |cell| usize::from(cell.local)).ok()
     }
 
     /// Bytes held.
@@ -97,5 +88,5 @@ impl Cuts {
 pub(crate) const fn cut_bytes([cells, links]: [u64; 2]) -> u64 {
     // Lists grow by doubling.
     let lists = cells * size_of::<CutRim>() as u64 + links * size_of::<CutPlace>() as u64;
-    lists * 5 / 4 + cells * size_of::<Memory>() as u64 + links * size_of::<f64>() as u64
+    lists * 5 / 4 + links * size_of::<f64>() as u64
 }

@@ -79,7 +79,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 // Between a solid and a grain as between two solids.
                 let behind = at.behind.filter(|&(place, _)| self.is_fluid(place));
                 let behind = behind.and_then(|(place, direction)| self.sent(place, direction));
-                *back = cut_link(&self.physics, &own, correction, &at.link, behind, rho);
+                *back = cut_link(&self.physics, &own, &at.link, behind, rho);
                 brought.add(cell.body, *back);
             }
         }

@@ -88,10 +88,6 @@ impl<P: Physics, E: Element> Observed for FastRun<P, E> {
         for number in acceleration.iter().flatten().chain(self.lag[number].get(local)) {
             hasher.number(*number);
         }
-        let place = self.blocks[number].cuts.place_of(local);
-        for number in place.and_then(|place| self.cut_memory[number].get(place)).into_iter().flatten() {
-            hasher.number(*number);
-        }
     }
 }
 
@@ -172,8 +168,7 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
     fn allocated_bytes(&self) -> u64 {
         let populations: u64 = self.old.iter().chain(&self.new).map(Aligned::bytes).sum();
         let rim: usize = self.rim.iter().map(|rim| size_of_val(rim.as_slice())).sum();
-        let memory: usize = self.cut_memory.iter().map(|list| size_of_val(list.as_slice())).sum();
-        let cuts = size_of_val(&*self.setup.cuts) + memory;
+        let cuts = size_of_val(&*self.setup.cuts);
         let numbers: usize = self
             .density
             .iter()

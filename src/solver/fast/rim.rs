@@ -4,11 +4,9 @@ use super::element::MOST;
 use super::layout::Layout;
 use super::registers::Registers;
 use crate::boundary::flat_wall::FlatWall;
-use crate::lane::Lane;
 use crate::lattice::Q;
-use crate::lattice::unroll::{directions, six, three};
+use crate::lattice::unroll::{directions, three};
 use crate::solver::cell::{Situation, State, wall_correction};
-use crate::solver::cut_law::{CutShape, Memory, cut_correction};
 use crate::solver::physics::Physics;
 
 /// What is kept of a cell at a wall or open face.
@@ -40,8 +38,6 @@ pub(crate) struct WallTask<'a, P> {
     pub density: &'a [Vec<f64>],
     /// \[K6\].
     pub sourced: bool,
-    /// Whether cut links are corrected, and whether by the law by stress.
-    pub cut: [bool; 2],
 }
 
 /// What a correction takes from around its cell.
@@ -60,8 +56,6 @@ pub(crate) struct Alike {
     pub walls: u32,
     /// The wall, where the law by stress acts.
     pub flat: Option<FlatWall>,
-    /// Whether surfaces cut their links \[B4\].
-    pub cut: bool,
     /// Number of the fluid.
     pub fluid: u8,
 }
@@ -74,17 +68,6 @@ pub(crate) struct Columns {
     residual: [[f64; MOST]; 3],
     drag: [[f64; MOST]; 3],
     omega: [f64; MOST],
-    cut: CutColumns,
-}
-
-/// What cut cells side by side have besides.
-#[repr(align(64))]
-struct CutColumns {
-    shares: [[f64; MOST]; Q],
-    normal: [[f64; MOST]; 3],
-    curvature: [[f64; MOST]; 6],
-    wall: [[f64; MOST]; 3],
-    memory: [[f64; MOST]; 4],
 }
 
 impl Columns {
@@ -92,14 +75,7 @@ impl Columns {
     #[must_use]
     pub fn new() -> Self {
         let zeros = [0.0; MOST];
-        Self {
-            f: [zeros; Q],
-            force: [zeros; 3],
-            residual: [zeros; 3],
-            drag: [zeros; 3],
-            omega: zeros,
-            cut: CutColumns::new(),
-        }
+        Self { f: [zeros; Q], force: [zeros; 3], residual: [zeros; 3], drag: [zeros; 3], omega: zeros }
     }
 
     /// A cell into a lane.
@@ -113,25 +89,6 @@ impl Columns {
             self.drag[a][lane] = drag[a];
         }
         self.omega[lane] = kept.omega;
-    }
-
-    /// A cut cell into a lane.
-    pub(crate) fn put_cut(&mut self, lane: usize, shape: &CutShape, memory: &Memory) {
-        let put = |columns: &mut [[f64; MOST]], values: &[f64]| {
-            for (column, value) in columns.iter_mut().zip(values) {
-                column[lane] = *value;
-            }
-        };
-        put(&mut self.cut.shares, &shape.shares);
-        put(&mut self.cut.normal, &shape.normal);
-        put(&mut self.cut.curvature, &shape.curvature);
-        put(&mut self.cut.wall, &shape.wall);
-        put(&mut self.cut.memory, memory);
-    }
-
-    /// What the cut cell in a lane remembers.
-    pub(crate) fn memory_of(&self, lane: usize) -> Memory {
-        self.cut.memory.map(|column| column[lane])
     }
 
     /// The correction of a lane.
@@ -159,26 +116,6 @@ impl Columns {
                 m: task.physics.moments(&h, &load(&self.force)),
                 omega: R::load_wide(&self.omega[part..]),
             };
-            if alike.cut && !task.cut[0] {
-                for column in &mut self.f {
-                    R::store_wide(R::Pack::zero(), &mut column[part..]);
-                }
-                continue;
-            }
-            if alike.cut {
-                let residual = load(&self.residual);
-                let (shape, memory) = self.cut.load::<R>(part);
-                let by_stress = task.cut[1].then_some(alike.fluid);
-                let (correction, memory) =
-                    cut_correction(task.physics, &h, &state, &shape, &residual, by_stress, memory);
-                for i in 0..Q {
-                    R::store_wide(correction[i], &mut self.f[i][part..]);
-                }
-                for k in 0..4 {
-                    R::store_wide(memory[k], &mut self.cut.memory[k][part..]);
-                }
-                continue;
-            }
             let situation = Situation {
                 residual: load(&self.residual),
                 drag: load(&self.drag),
@@ -192,43 +129,6 @@ impl Columns {
                 R::store_wide(correction[i], &mut self.f[i][part..]);
             }
         }
-    }
-}
-
-impl CutColumns {
-    fn new() -> Self {
-        let zeros = [0.0; MOST];
-        Self {
-            shares: [zeros; Q],
-            normal: [zeros; 3],
-            curvature: [zeros; 6],
-            wall: [zeros; 3],
-            memory: [zeros; 4],
-        }
-    }
-
-    #[inline(always)]
-    fn load<R: Registers<Element = f64>>(&self, part: usize) -> (CutShape<R::Pack>, Memory<R::Pack>) {
-        let load = |column: &[f64; MOST]| R::load_wide(&column[part..]);
-        let shape = CutShape {
-            shares: directions(
-                #[inline(always)]
-                |i| load(&self.shares[i]),
-            ),
-            normal: three(
-                #[inline(always)]
-                |a| load(&self.normal[a]),
-            ),
-            curvature: six(
-                #[inline(always)]
-                |k| load(&self.curvature[k]),
-            ),
-            wall: three(
-                #[inline(always)]
-                |a| load(&self.wall[a]),
-            ),
-        };
-        (shape, [0, 1, 2, 3].map(|k| load(&self.memory[k])))
     }
 }
 

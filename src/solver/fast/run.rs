@@ -20,7 +20,6 @@ use crate::free_surface::Kind;
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
 use crate::setup::{Setup, WallRule, YieldTreatment};
-use crate::solver::cut_law::Memory;
 use crate::solver::initial;
 use crate::solver::loads::recorded;
 use crate::solver::physics::Physics;
@@ -50,8 +49,6 @@ pub struct FastRun<P, E: Element = f64> {
     pub(super) rim: Vec<Vec<Rim>>,
     /// What comes back along cut links, by block.
     pub(super) cut_returned: Vec<Vec<f64>>,
-    /// What cut cells remember of their stress, by block.
-    pub(super) cut_memory: Vec<Vec<Memory>>,
     /// ρ − 1 before the last collision; only with the viscosity-independent wall.
     pub(super) density: Vec<Vec<f64>>,
     /// ω⁺ of the last collision; only for the lagged treatment.
@@ -104,7 +101,6 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             new: Vec::new(),
             rim: Vec::new(),
             cut_returned: Vec::new(),
-            cut_memory: Vec::new(),
             density: Vec::new(),
             lag: Vec::new(),
             surface: None,
@@ -148,7 +144,6 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let walls = self.corrected() && super::memory::has_walls(&self.setup);
         put(&mut self.rim, number, vec![Rim::default(); rim]);
         put(&mut self.cut_returned, number, vec![0.0; block.cuts.links.len()]);
-        put(&mut self.cut_memory, number, vec![[0.0; 4]; block.cuts.cells.len()]);
         put(&mut self.density, number, vec![0.0; if walls { cells } else { 0 }]);
         let lagged = matches!(self.setup.yielding, YieldTreatment::LaggedClamped { .. });
         put(&mut self.lag, number, vec![0.0; if lagged { cells } else { 0 }]);

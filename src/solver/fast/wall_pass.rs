@@ -5,8 +5,7 @@ use super::layout::NONE;
 use super::place::Place;
 use super::rim::{Rim, WallTask};
 use super::run::FastRun;
-use super::walls::{Kept, correct};
-use crate::solver::cut_law::Memory;
+use super::walls::correct;
 use crate::solver::physics::Physics;
 use crate::solver::pool::each;
 
@@ -17,28 +16,20 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             return;
         }
         let mut rim = std::mem::take(&mut self.rim);
-        let mut memory = std::mem::take(&mut self.cut_memory);
         let task = WallTask {
             physics: &self.physics,
             layout: &self.layout,
             density: &self.density,
             sourced: self.setup.stress_source,
-            cut: [self.setup.cuts_by_stress, self.setup.cut_by_stress()],
         };
-        let both = rim.iter_mut().zip(&mut memory);
-        let items = both.enumerate().filter(|(_, (rim, _))| !rim.is_empty()).collect();
-        each(
-            self.pool.as_ref(),
-            items,
-            |(number, (rim, memory)): (usize, (&mut Vec<Rim>, &mut Vec<Memory>))| {
-                let mut kept = Kept { rim, memory };
-                let force_of = |local| self.force_of(number, local, force);
-                let is_full = |local| self.is_full(number, local);
-                let is_liquid = |place: Place| self.is_fluid(place) && self.is_full_at(place);
-                correct(self.chosen, &task, &self.blocks[number], &mut kept, &force_of, &is_full, &is_liquid);
-            },
-        );
-        (self.rim, self.cut_memory) = (rim, memory);
+        let items = rim.iter_mut().enumerate().filter(|(_, rim)| !rim.is_empty()).collect();
+        each(self.pool.as_ref(), items, |(number, rim): (usize, &mut Vec<Rim>)| {
+            let force_of = |local| self.force_of(number, local, force);
+            let is_full = |local| self.is_full(number, local);
+            let is_liquid = |place: Place| self.is_fluid(place) && self.is_full_at(place);
+            correct(self.chosen, &task, &self.blocks[number], rim, &force_of, &is_full, &is_liquid);
+        });
+        self.rim = rim;
     }
 
     fn is_full_at(&self, place: Place) -> bool {

@@ -6,20 +6,12 @@ use super::instructions::{self, Chosen};
 use super::layout::NONE;
 use super::rim::{Alike, Columns, Given, Rim, WallTask};
 use crate::boundary::wall_slip::pressure_slope;
+use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
-use crate::solver::cut_law::Memory;
 use crate::solver::physics::Physics;
 
 /// Cells that are corrected together: as many as the widest register holds.
 const GROUP: usize = 8;
-
-/// What is kept of the rim cells of a block.
-pub(crate) struct Kept<'a> {
-    /// All of them.
-    pub rim: &'a mut [Rim],
-    /// Of those that surfaces cut.
-    pub memory: &'a mut [Memory],
-}
 
 /// Corrections of the rim cells of a block: neighbours along the rim with the same walls side by side.
 /// `force(local)`: body force of a fluid cell, `None` if the cell holds no fluid; `is_full(local)`:
@@ -29,40 +21,33 @@ pub(crate) fn correct<P: Physics>(
     chosen: Chosen,
     task: &WallTask<P>,
     block: &Block,
-    kept: &mut Kept,
+    rim: &mut [Rim],
     force: &impl Fn(usize) -> Option<[f64; 3]>,
     is_full: &impl Fn(usize) -> bool,
     is_liquid: &impl Fn(Place) -> bool,
 ) {
-    let Kept { rim, memory } = kept;
     let mut columns = Columns::new();
     let mut group = [0; MOST];
-    let (mut flat, mut cut) = (None, false);
+    let mut flat = None;
     let mut at = 0;
     while at < rim.len() {
         let mut count = 0;
         while count < GROUP && at < rim.len() {
             let cell = &block.rim[at];
-            let place = cell.cut.map(usize::from);
-            let given = if cell.walls == 0 { None } else { given(task, cell, &rim[at], force, is_liquid) };
-            let full = given.is_some() && is_full(usize::from(cell.local));
-            if let Some(memory) = place.filter(|_| !full).and_then(|place| memory.get_mut(place)) {
-                *memory = [0.0; 4];
-            }
-            if let Some(given) = given {
-                let (wall, shape) = (cell.flat.filter(|_| full), place.filter(|_| full));
+            let local = usize::from(cell.local);
+            let force = if cell.walls == 0 { None } else { force(local) };
+            let full = force.is_some() && is_full(local);
+            if full && cell.cut.is_some() {
+                // Cut links are not corrected [B4].
+                rim[at].correction = [0.0; Q];
+            } else if let Some(force) = force {
+                let wall = cell.flat.filter(|_| full);
                 if count == 0 {
-                    (flat, cut) = (wall, shape.is_some());
-                } else if wall != flat
-                    || shape.is_some() != cut
-                    || !alike(block, &block.rim[group[0]], cell, cut)
-                {
+                    flat = wall;
+                } else if wall != flat || !alike(block, &block.rim[group[0]], cell) {
                     break;
                 }
-                columns.put(count, &rim[at], &given, &cell.drag);
-                if let Some(place) = shape {
-                    columns.put_cut(count, &block.cuts.cells[place].shape, &memory[place]);
-                }
+                columns.put(count, &rim[at], &given(task, cell, &rim[at], force, is_liquid), &cell.drag);
                 group[count] = at;
                 count += 1;
             }
@@ -70,37 +55,33 @@ pub(crate) fn correct<P: Physics>(
         }
         if count > 0 {
             let cell = &block.rim[group[0]];
-            let alike = Alike { count, walls: cell.walls, flat, cut, fluid: fluid_of(block, cell) };
+            let alike = Alike { count, walls: cell.walls, flat, fluid: fluid_of(block, cell) };
             instructions::walls(chosen, task, &mut columns, &alike);
             for (lane, &at) in group[..count].iter().enumerate() {
                 columns.take(lane, &mut rim[at]);
-                if let Some(place) = block.rim[at].cut.filter(|_| cut) {
-                    memory[usize::from(place)] = columns.memory_of(lane);
-                }
             }
         }
     }
 }
 
-/// Whether two cells have the same walls and fluid; `cut`: cut cells bring their walls with their shares.
-fn alike(block: &Block, a: &RimCell, b: &RimCell, cut: bool) -> bool {
-    (cut || a.walls == b.walls) && fluid_of(block, a) == fluid_of(block, b)
+/// Whether two cells have the same walls and fluid.
+fn alike(block: &Block, a: &RimCell, b: &RimCell) -> bool {
+    a.walls == b.walls && fluid_of(block, a) == fluid_of(block, b)
 }
 
 fn fluid_of(block: &Block, cell: &RimCell) -> u8 {
     block.fluid.get(usize::from(cell.local)).copied().unwrap_or(0)
 }
 
-/// Force and residual force of a cell; `None` where it holds no fluid.
+/// Force and residual force of a cell that holds fluid.
 #[inline]
 fn given<P>(
     task: &WallTask<P>,
     cell: &RimCell,
     kept: &Rim,
-    force: &impl Fn(usize) -> Option<[f64; 3]>,
+    force: [f64; 3],
     is_liquid: &impl Fn(Place) -> bool,
-) -> Option<Given> {
-    let force = force(usize::from(cell.local))?;
+) -> Given {
     let density = |place: Option<Place>| {
         let place = place.filter(|&place| is_liquid(place))?;
         match task.layout.block_at(place.block as usize) {
@@ -113,5 +94,5 @@ fn given<P>(
     for (f, sides) in residual.iter_mut().zip(&cell.neighbours) {
         *f -= pressure_slope(density(sides[0]), own, density(sides[1]));
     }
-    Some(Given { force, residual })
+    Given { force, residual }
 }

@@ -62,7 +62,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             // Between a solid and a grain as between two solids.
             let behind = link.behind.filter(|&(cell, _)| self.is_fluid(cell as usize));
             let behind = behind.map(|(cell, direction)| self.post[cell as usize][usize::from(direction)]);
-            *back = cut_link(&self.physics, own, correction, link, behind, rho);
+            *back = cut_link(&self.physics, own, link, behind, rho);
             brought.add(body, *back);
         }
     }

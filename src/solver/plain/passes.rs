@@ -45,7 +45,11 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             let record = &self.links.boundary()[slot];
             let at = record.cell as usize;
             if !record.touches_wall || !self.is_fluid(at) {
-                record.cut.into_iter().for_each(|place| self.cuts.forget(place));
+                continue;
+            }
+            if record.cut.is_some() && !self.is_interface(at) {
+                // Cut links are not corrected [B4].
+                self.corrections[slot] = [0.0; Q];
                 continue;
             }
             let force = self.force_at(at, force);
@@ -60,19 +64,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 flat: record.flat.filter(|_| !self.is_interface(at)),
             };
             let state = self.state(at, &force);
-            self.corrections[slot] = match record.cut {
-                None => cell::wall_correction(&self.physics, &self.f[at], &state, &situation),
-                Some(place) if self.is_interface(at) => {
-                    self.cuts.forget(place);
-                    cell::wall_correction(&self.physics, &self.f[at], &state, &situation)
-                }
-                Some(_) if !self.setup.cuts_by_stress => [0.0; Q],
-                Some(place) => {
-                    let by_stress = self.setup.cut_by_stress().then_some(situation.fluid);
-                    let residual = situation.residual;
-                    self.cuts.correction(place, &self.physics, &self.f[at], &state, &residual, by_stress)
-                }
-            };
+            self.corrections[slot] = cell::wall_correction(&self.physics, &self.f[at], &state, &situation);
         }
     }
 

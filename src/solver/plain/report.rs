@@ -2,7 +2,6 @@
 
 use super::run::PlainRun;
 use super::surface::SurfacePhysics;
-use crate::boundary::links::CellKind;
 use crate::coupling::Immersed;
 use crate::fingerprint::{Fingerprint, Hasher};
 use crate::lattice::Q;
@@ -64,11 +63,6 @@ impl<P: Physics, S: SurfacePhysics> Observed for PlainRun<P, S> {
     fn hash_memory(&self, at: usize, hasher: &mut Hasher) {
         let acceleration = self.surface.as_ref().and_then(|surface| surface.acceleration.get(at));
         for number in acceleration.into_iter().flatten().chain(self.previous_omega.get(at)) {
-            hasher.number(*number);
-        }
-        let CellKind::Boundary(slot) = self.links.kind(at) else { return };
-        let place = self.links.boundary()[slot].cut;
-        for number in place.and_then(|place| self.cuts.memory(place)).into_iter().flatten() {
             hasher.number(*number);
         }
     }

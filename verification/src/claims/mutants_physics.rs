@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lahar::boundary::bounce_back::bounce_back;
 use lahar::boundary::links::Links;
-use lahar::boundary::wall_law::{CutStress, WallStress};
+use lahar::boundary::wall_law::WallStress;
 use lahar::boundary::wall_slip::newtonian_slip;
 use lahar::collision::forcing_guo::{even_source, odd_source};
 use lahar::collision::{Bgk, Collision, CollisionChoice};
@@ -143,14 +143,6 @@ impl Physics for Wrong {
     fn omega<L: Lane>(&self, fluid: u8, rho: L, q: L, previous: L) -> L {
         let rho = if self.mistake == Mistake::NoDensityInTau { L::one() } else { rho };
         self.right.omega(fluid, rho, q, previous)
-    }
-
-    fn thins_or_yields(&self, fluid: u8) -> bool {
-        self.right.thins_or_yields(fluid)
-    }
-
-    fn cut_slips<L: Lane>(&self, fluid: u8, wall: &CutStress<L>, distances: &[L; Q]) -> [L; Q] {
-        self.right.cut_slips(fluid, wall, distances)
     }
 
     fn odd_omega<L: Lane>(&self, omega: L) -> L {

@@ -73,7 +73,6 @@ pub static STUDY: Study = Study {
         pipes::CUT_PIPE,
         pipes::CUT_PIPE_BINGHAM,
         pipes::CUT_PIPE_HB,
-        pipes::BY_STRESS_PIPE_HB,
         place::SPHERE,
     ],
     exhibits: &[thesis_figures::FIGURES, pipes::STAIRCASE, work_precision::WORK, work_precision::SECONDS],

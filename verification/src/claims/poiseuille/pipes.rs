@@ -21,8 +21,6 @@ pub enum Surface {
     Stairs,
     /// In its place \[B4\].
     Cut,
-    /// In its place, with the law by stress \[B4\].
-    CutByStress,
 }
 
 /// A round pipe along x of radius R cells, driven at wall stress 1 of `law`.
@@ -85,7 +83,6 @@ impl RoundPipe {
         setup.solid_motion = vec![SolidMotion::default()];
         let outside = |cell: usize| pipe.distance(setup.coordinates(cell)) > pipe.radius;
         setup.solids = (0..setup.cells()).map(|cell| u8::from(outside(cell))).collect();
-        setup.cuts_by_stress = self.surface == Surface::CutByStress;
         if self.surface != Surface::Stairs {
             let middle = 0.5 * m as f64;
             let outside = |[_, y, z]: [f64; 3]| {
@@ -163,7 +160,7 @@ fn over_quarters(
 ) -> Result<Sample, VerifyError> {
     let wall = match surface {
         Surface::Stairs => WallRule::HalfWay,
-        Surface::Cut | Surface::CutByStress => WallRule::ViscosityIndependent,
+        Surface::Cut => WallRule::ViscosityIndependent,
     };
     let pipe = |r| RoundPipe::new(r, &fluid.law, fluid.viscosity, 0.01, wall).with(surface).measure(backend);
     let mut sample = pipe(radius)?;
@@ -285,20 +282,6 @@ pub const CUT_PIPE_HB: Claim = Claim {
     },
     measure: |backend, radius| over_quarters(backend, radius, Surface::Cut, &THINNING),
     ..CUT_PIPE_BINGHAM
-};
-
-/// Herschel-Bulkley pipe with the law by stress.
-pub const BY_STRESS_PIPE_HB: Claim = Claim {
-    id: "pipe-herschel-bulkley-by-stress",
-    title: "In a Herschel-Bulkley pipe (n = 0.33) with the law by stress at its cut links the error is below 5 % from R = 6 on",
-    tolerance: Tolerance {
-        value: 0.05,
-        at: Rung::Every,
-        basis: Basis::AfterSeeing,
-        because: "4.1 % at R = 6, and a fifth on top; falls below 1.5 % at R = 12",
-    },
-    measure: |backend, radius| over_quarters(backend, radius, Surface::CutByStress, &THINNING),
-    ..CUT_PIPE_HB
 };
 
 /// What the wall rule does on a staircase.
