@@ -4,6 +4,8 @@
 //! liquid cell never touches gas. The passes over arrays are in `solver/plain/surface`; here is what
 //! one cell or one link does.
 
+mod columns;
+mod confined;
 pub mod conversion;
 pub mod exchange;
 pub(crate) mod force;
