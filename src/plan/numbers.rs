@@ -34,8 +34,10 @@ pub struct Numbers {
     pub gas_cells: Option<u64>,
     /// Greatest depth of the fluid at time 0, cells; `null` without a free surface.
     pub depth_cells: Option<f64>,
-    /// Volume of the fluid at time 0, m³; `null` without a free surface.
+    /// Volume of the fluid in the cells at time 0, m³; `null` without a free surface.
     pub volume_m3: Option<f64>,
+    /// Volume of what is drawn as fluid and not as a solid, m³; `null` without a free surface.
+    pub drawn_m3: Option<f64>,
     /// Thickness at which the fluid stops on this slope, σ0/(f along the bed), m; `null` without a yield
     /// stress, a slope, or a free surface.
     pub arrest_thickness_m: Option<f64>,
@@ -152,6 +154,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         gas_cells: pool.map(|_| cells - solid_cells - given.fluid_cells),
         depth_cells: pool.map(|pool| units.length_to_lattice(pool.depth)),
         volume_m3: pool.map(|pool| pool.volume),
+        drawn_m3: pool.map(|pool| pool.drawn),
         arrest_thickness_m: arrest_thickness(basis),
         time_step_s: units.dt_s,
         time_step_rule: given.rule,
