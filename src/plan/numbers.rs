@@ -142,8 +142,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
     let slip = plug_slip(basis);
     let (memory, bytes) = counted(setup, given.layout);
     let cell_updates = given.fluid_cells as f64 * *steps as f64;
-    // The scales of the viscous and of the plastic stress.
-    let (viscous, yielding) = (curve.viscous_stress(u / length), curve.plastic_stress());
+    let (viscous_stress, plastic_stress) = (curve.viscous_stress(u / length), curve.plastic_stress());
     Numbers {
         title: scene.title.clone().unwrap_or_else(|| scene.file.clone()),
         extents: setup.extents,
@@ -163,8 +162,8 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         reference_velocity_m_per_s: u,
         speed_lattice,
         reference_length_m: length,
-        reynolds: if u > 0.0 { units.rho0_kg_per_m3 * u * u / viscous } else { 0.0 },
-        bingham: if yielding > 0.0 { yielding / viscous } else { 0.0 },
+        reynolds: if u > 0.0 { units.rho0_kg_per_m3 * u * u / viscous_stress } else { 0.0 },
+        bingham: if plastic_stress > 0.0 { plastic_stress / viscous_stress } else { 0.0 },
         mach: speed_lattice * 3.0_f64.sqrt(),
         operator: Operator::of(&setup.collision),
         tau_plastic: if plastic.is_nan() { tau_min } else { units.tau_of_viscosity(plastic) },
