@@ -14,6 +14,7 @@ pub mod hydrostatic;
 pub mod ledger;
 pub(crate) mod marks;
 pub mod normal;
+pub mod settle;
 
 /// What a cell is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
