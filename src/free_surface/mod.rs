@@ -4,6 +4,8 @@
 //! liquid cell never touches gas. The passes over arrays are in `solver/plain/surface`; here is what
 //! one cell or one link does.
 
+mod columns;
+mod confined;
 pub mod conversion;
 pub mod exchange;
 pub(crate) mod force;
@@ -12,6 +14,7 @@ pub mod hydrostatic;
 pub mod ledger;
 pub(crate) mod marks;
 pub mod normal;
+pub mod settle;
 
 /// What a cell is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

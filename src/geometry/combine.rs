@@ -1,12 +1,9 @@
 //! Depth of a point below the surface of a shape, and the share of a cell that shapes cover.
 
 use super::polygon;
+use super::samples::Samples;
 use super::shape::{Axis, Bounds, Shape};
 use crate::vector::{dot, norm, sub};
-
-/// Subsamples per axis of a cell that a curved or oblique surface cuts. Even, so that the points are
-/// symmetric about the cell centre and none lies on it.
-const SAMPLES: usize = 8;
 
 impl Shape {
     /// Depth of a point below the surface, m: positive inside, never more in magnitude than the distance
@@ -57,35 +54,14 @@ impl Shape {
             _ => false,
         }
     }
-
-    /// Adds the positions along each axis where a blocky shape begins or ends.
-    fn cuts(&self, cuts: &mut [Vec<f64>; 3]) {
-        match self {
-            Self::Box { min_m, max_m } => {
-                for a in 0..3 {
-                    cuts[a].extend([min_m[a], max_m[a]]);
-                }
-            }
-            Self::HalfSpace { point_m, normal } => {
-                for a in (0..3).filter(|&a| normal[a] != 0.0) {
-                    cuts[a].push(point_m[a]);
-                }
-            }
-            Self::Union(parts) | Self::Intersection(parts) => parts.iter().for_each(|part| part.cuts(cuts)),
-            Self::Difference { from, minus } => {
-                from.cuts(cuts);
-                minus.iter().for_each(|part| part.cuts(cuts));
-            }
-            _ => {}
-        }
-    }
 }
 
 /// Share of a cell that lies inside at least one of the shapes, 0 to 1.
 ///
 /// Exact where all surfaces in the cell are normal to axes and where one polygon swept along an axis is
 /// alone; elsewhere from 8 points along each axis of more than one cell, at the same places in every
-/// cell and symmetric about its centre.
+/// cell and symmetric about its centre, or where plane surfaces normal to the axis cut it from as many in proportion
+/// between them.
 ///
 /// # Arguments
 /// `low`: low corner of the cell, m. `dx`: its size, m. `thin`: axes of one cell, along which one point
@@ -109,7 +85,10 @@ pub(crate) fn covered(shapes: &[&Shape], low: [f64; 3], dx: f64, thin: [bool; 3]
         [] => 0.0,
         [Shape::Polygon { axis, points_m, from_m, to_m }] => swept(&cell, *axis, points_m, [*from_m, *to_m]),
         near if near.iter().all(|shape| shape.is_blocky()) => blocks(near, &cell),
-        near => sampled(near, low, dx, thin),
+        near => {
+            let samples = Samples::new(near.iter().copied(), low, dx, thin);
+            snap(samples.share(|p| near.iter().any(|shape| shape.contains(p))))
+        }
     }
 }
 
@@ -131,7 +110,7 @@ fn swept(cell: &Bounds, axis: Axis, points: &[[f64; 2]], ends: [Option<f64>; 2])
 /// each piece is wholly inside or outside.
 fn blocks(shapes: &[&Shape], cell: &Bounds) -> f64 {
     let mut cuts: [Vec<f64>; 3] = std::array::from_fn(|a| vec![cell.min[a], cell.max[a]]);
-    shapes.iter().for_each(|shape| shape.cuts(&mut cuts));
+    shapes.iter().for_each(|shape| shape.planes(&mut cuts));
     for (a, cuts) in cuts.iter_mut().enumerate() {
         cuts.retain(|&x| cell.min[a] <= x && x <= cell.max[a]);
         cuts.sort_by(f64::total_cmp);
@@ -153,24 +132,8 @@ fn blocks(shapes: &[&Shape], cell: &Bounds) -> f64 {
     snap(volume / (size * (cell.max[1] - cell.min[1]) * (cell.max[2] - cell.min[2])))
 }
 
-/// Share of the subsamples that are inside.
-fn sampled(shapes: &[&Shape], low: [f64; 3], dx: f64, thin: [bool; 3]) -> f64 {
-    let counts = thin.map(|thin| if thin { 1 } else { SAMPLES });
-    let at = |a: usize, i: usize| low[a] + dx * ((i as f64 + 0.5) / counts[a] as f64);
-    let mut inside = 0;
-    for k in 0..counts[2] {
-        for j in 0..counts[1] {
-            for i in 0..counts[0] {
-                let point = [at(0, i), at(1, j), at(2, k)];
-                inside += usize::from(shapes.iter().any(|shape| shape.contains(point)));
-            }
-        }
-    }
-    inside as f64 / counts.iter().product::<usize>() as f64
-}
-
 /// Shares within rounding of empty and full are exactly 0 and 1.
-fn snap(share: f64) -> f64 {
+pub(super) fn snap(share: f64) -> f64 {
     const ROUNDING: f64 = 1e-9;
     if share < ROUNDING {
         0.0

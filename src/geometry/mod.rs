@@ -1,10 +1,12 @@
 //! Shapes in space, in metres: whether a point is inside, and the share of a cell that they cover.
 
+mod beside;
 mod combine;
 mod heightfield;
 mod polygon;
+mod samples;
 mod shape;
 
-pub(crate) use combine::covered;
+pub(crate) use beside::{Body, drawn};
 pub use heightfield::Heightfield;
 pub use shape::{Axis, Bounds, Shape};

@@ -1,7 +1,7 @@
 //! Which cells are solid, which fluid they hold, and how wide the gaps between walls are.
 
 use super::facts::Facts;
-use super::surface::{self, Pool};
+use super::surface::{self, Drawing, Ground, Pool};
 use crate::geometry::{Axis, Shape};
 use crate::scene::{Boundary, Domain};
 
@@ -43,11 +43,12 @@ pub(crate) fn fill(facts: &Facts) -> Cells {
     let total = extents.iter().map(|&n| n as u64).product::<u64>();
     let open_cells = total - solids.iter().filter(|&&s| s != 0).count() as u64;
     let gap = gap(extents, &facts.faces, &solids);
-    let fill = surface::fill(facts, extents, &solids);
-    let pool = fill.as_ref().map(|fill| surface::pool(facts, extents, &solids, fill));
-    let filled = fill.as_ref().map(|fill| fill.iter().filter(|&&fill| fill > 0.0).count() as u64);
-    let fluid_cells = filled.unwrap_or(open_cells);
-    Cells { extents, solids, fluid_of_cell, fluid_cells, fill: fill.unwrap_or_default(), pool, gap }
+    let drawing = surface::draw(facts, &Ground::of(facts, extents, &solids));
+    let pool = drawing.as_ref().map(|drawing| surface::pool(facts, extents, &solids, drawing));
+    let filled = |drawing: &Drawing| drawing.fill.iter().filter(|&&fill| fill > 0.0).count() as u64;
+    let fluid_cells = drawing.as_ref().map_or(open_cells, filled);
+    let fill = drawing.unwrap_or_default().fill;
+    Cells { extents, solids, fluid_of_cell, fluid_cells, fill, pool, gap }
 }
 
 /// Number (from 1) of the last shape that holds a cell's centre, 0 without one; empty without

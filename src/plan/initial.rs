@@ -33,7 +33,7 @@ pub(crate) fn initial_flow(
         // At rest the solver itself starts with the pressure that balances the weight.
         let own = weightless || flow != InitialVelocity::AtRest;
         let force = if weightless { &[0.0; 3] } else { force };
-        return own.then(|| flow_below_surface(flow, units, cells, force));
+        return own.then(|| flow_below_surface(flow, units, cells, facts.closed, force));
     }
     let push = pressure_gradient(facts, units);
     if flow == InitialVelocity::AtRest && push == [0.0; 3] {
@@ -52,7 +52,13 @@ pub(crate) fn initial_flow(
 }
 
 /// The flow with the pressure that balances the weight of fluid at rest.
-fn flow_below_surface(flow: InitialVelocity, units: &Units, cells: &Cells, force: &[f64; 3]) -> InitialFlow {
+fn flow_below_surface(
+    flow: InitialVelocity,
+    units: &Units,
+    cells: &Cells,
+    closed: [bool; 3],
+    force: &[f64; 3],
+) -> InitialFlow {
     let kind = |cell: usize| match cells.fill[cell] {
         _ if cells.solids.get(cell).is_some_and(|&s| s != 0) => Kind::Solid,
         fill if fill <= 0.0 => Kind::Gas,
@@ -61,7 +67,8 @@ fn flow_below_surface(flow: InitialVelocity, units: &Units, cells: &Cells, force
     };
     let kinds: Vec<Kind> = (0..cells.fill.len()).map(kind).collect();
     let (extents, units) = (cells.extents, *units);
-    let excess = hydrostatic::density_excess(extents, &kinds, &cells.fill, force);
+    let excess =
+        hydrostatic::density_excess(extents, closed.map(|closed| !closed), &kinds, &cells.fill, force);
     Arc::new(move |cell| {
         let wave = wave(&flow, &units, extents, cell);
         let index = cell[0] + extents[0] * (cell[1] + extents[1] * cell[2]);

@@ -34,8 +34,10 @@ pub struct Numbers {
     pub gas_cells: Option<u64>,
     /// Greatest depth of the fluid at time 0, cells; `null` without a free surface.
     pub depth_cells: Option<f64>,
-    /// Volume of the fluid at time 0, m³; `null` without a free surface.
+    /// Volume of the fluid in the cells at time 0, m³; `null` without a free surface.
     pub volume_m3: Option<f64>,
+    /// Volume of what is drawn as fluid and not as a solid, m³; `null` without a free surface.
+    pub drawn_m3: Option<f64>,
     /// Thickness at which the fluid stops on this slope, σ0/(f along the bed), m; `null` without a yield
     /// stress, a slope, or a free surface.
     pub arrest_thickness_m: Option<f64>,
@@ -140,8 +142,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
     let slip = plug_slip(basis);
     let (memory, bytes) = counted(setup, given.layout);
     let cell_updates = given.fluid_cells as f64 * *steps as f64;
-    // The scales of the viscous and of the plastic stress.
-    let (viscous, yielding) = (curve.viscous_stress(u / length), curve.plastic_stress());
+    let (viscous_stress, plastic_stress) = (curve.viscous_stress(u / length), curve.plastic_stress());
     Numbers {
         title: scene.title.clone().unwrap_or_else(|| scene.file.clone()),
         extents: setup.extents,
@@ -152,6 +153,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         gas_cells: pool.map(|_| cells - solid_cells - given.fluid_cells),
         depth_cells: pool.map(|pool| units.length_to_lattice(pool.depth)),
         volume_m3: pool.map(|pool| pool.volume),
+        drawn_m3: pool.map(|pool| pool.drawn),
         arrest_thickness_m: arrest_thickness(basis),
         time_step_s: units.dt_s,
         time_step_rule: given.rule,
@@ -160,8 +162,8 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         reference_velocity_m_per_s: u,
         speed_lattice,
         reference_length_m: length,
-        reynolds: if u > 0.0 { units.rho0_kg_per_m3 * u * u / viscous } else { 0.0 },
-        bingham: if yielding > 0.0 { yielding / viscous } else { 0.0 },
+        reynolds: if u > 0.0 { units.rho0_kg_per_m3 * u * u / viscous_stress } else { 0.0 },
+        bingham: if plastic_stress > 0.0 { plastic_stress / viscous_stress } else { 0.0 },
         mach: speed_lattice * 3.0_f64.sqrt(),
         operator: Operator::of(&setup.collision),
         tau_plastic: if plastic.is_nan() { tau_min } else { units.tau_of_viscosity(plastic) },

@@ -39,6 +39,12 @@ fn box_of_cells(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
             "fluid at time 0",
             format_args!("{} m³, {metres} m deep, {} cells", short(volume), short(depth)),
         )?;
+        if let Some(drawn) = n.drawn_m3 {
+            let percent = 100.0 * (volume / drawn - 1.0);
+            // No −0.00.
+            let percent = if percent.abs() < 5e-3 { 0.0 } else { percent };
+            row(f, "drawn", format_args!("{} m³; the cells hold {percent:+.2} %", short(drawn)))?;
+        }
     } else if n.gap_cells.is_finite() {
         row(f, "widest gap", format_args!("{} cells between walls", n.gap_cells))?;
     } else {

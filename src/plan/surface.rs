@@ -1,8 +1,8 @@
 //! The fluid at time 0 of a scene with a free surface: fill of the cells, depths and falls.
 
 use super::facts::Facts;
-use crate::geometry::{Axis, Shape, covered};
-use crate::scene::FillLevel;
+use crate::geometry::{Axis, Body, Shape, drawn};
+use crate::scene::{FillLevel, Solid};
 
 /// How the fluid lies at time 0, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,8 +19,10 @@ pub(crate) struct Pool {
     pub runs: [f64; 3],
     /// Farthest that fluid can fall freely through air along the axis; infinite where nothing stops it.
     pub fall: f64,
-    /// Volume of the fluid, m³.
+    /// Volume of the fluid in the cells, m³.
     pub volume: f64,
+    /// Volume of what is drawn as fluid and not as a solid, m³.
+    pub drawn: f64,
 }
 
 /// The shape of a fill level: everything on the side towards which gravity pulls.
@@ -34,36 +36,76 @@ pub(crate) fn level_shape(facts: &Facts, level: &FillLevel) -> Shape {
     Shape::HalfSpace { point_m, normal }
 }
 
-/// Fill of every cell at time 0, 0 in solids; `None` without a free surface.
+/// The fluid of a scene at time 0, drawn onto cells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Drawing {
+    /// Fill of every cell, 0 in solids.
+    pub fill: Vec<f64>,
+    /// Volume of what is drawn as fluid and not as a solid, cells.
+    pub volume: f64,
+}
+
+/// Where fluid is drawn: the box and what is solid in it.
+pub(crate) struct Ground<'a> {
+    pub extents: [usize; 3],
+    pub spacing_m: f64,
+    pub up: Axis,
+    /// Shapes of the solids.
+    pub bodies: Vec<Body<'a>>,
+    /// Per cell: whether a solid holds its centre, if not 0; empty without solids.
+    pub solids: &'a [u8],
+}
+
+impl<'a> Ground<'a> {
+    /// That of a scene.
+    #[must_use]
+    pub fn of(facts: &Facts<'a>, extents: [usize; 3], solids: &'a [u8]) -> Self {
+        let body = |solid: &'a Solid| Body { shape: &solid.shape, invert: solid.invert };
+        let bodies = facts.scene.solids.iter().map(body).collect();
+        Self { extents, spacing_m: facts.scene.domain.spacing_m, up: facts.forces.up, bodies, solids }
+    }
+
+    /// The same box without solids.
+    #[must_use]
+    pub fn bare(&self) -> Self {
+        Self { bodies: Vec::new(), solids: &[], ..*self }
+    }
+
+    /// Fluid inside any of the shapes.
+    #[must_use]
+    pub fn draw(&self, shapes: &[&Shape]) -> Drawing {
+        let [nx, ny, nz] = self.extents;
+        let (dx, up) = (self.spacing_m, self.up.index());
+        let thin = self.extents.map(|n| n == 1);
+        let mut drawing = Drawing { fill: Vec::with_capacity(nx * ny * nz), volume: 0.0 };
+        for k in 0..nz {
+            for j in 0..ny {
+                for i in 0..nx {
+                    let solid = self.solids.get(drawing.fill.len()).is_some_and(|&s| s != 0);
+                    let low = [i, j, k].map(|i| i as f64 * dx);
+                    let cell = drawn(shapes, &self.bodies, low, dx, thin, up);
+                    drawing.volume += cell.volume;
+                    drawing.fill.push(if solid { 0.0 } else { cell.fill });
+                }
+            }
+        }
+        drawing
+    }
+}
+
+/// The fluid of a scene at time 0; `None` without a free surface.
 #[must_use]
-pub(crate) fn fill(facts: &Facts, extents: [usize; 3], solids: &[u8]) -> Option<Vec<f64>> {
+pub(crate) fn draw(facts: &Facts, ground: &Ground) -> Option<Drawing> {
     let initial = facts.scene.fluid.initial.as_ref()?;
     let level = initial.fill_level.as_ref().map(|level| level_shape(facts, level));
     let shapes: Vec<&Shape> = level.iter().chain(initial.shapes.iter().map(|part| &part.shape)).collect();
-    Some(shares(&shapes, extents, facts.scene.domain.spacing_m, solids))
-}
-
-/// Share of every cell inside any of the shapes, 0 in solids.
-#[must_use]
-pub(crate) fn shares(shapes: &[&Shape], extents: [usize; 3], dx: f64, solids: &[u8]) -> Vec<f64> {
-    let [nx, ny, nz] = extents;
-    let thin = extents.map(|n| n == 1);
-    let mut fill = Vec::with_capacity(nx * ny * nz);
-    for k in 0..nz {
-        for j in 0..ny {
-            for i in 0..nx {
-                let solid = solids.get(fill.len()).is_some_and(|&s| s != 0);
-                let low = [i, j, k].map(|i| i as f64 * dx);
-                fill.push(if solid { 0.0 } else { covered(shapes, low, dx, thin) });
-            }
-        }
-    }
-    fill
+    Some(ground.draw(&shapes))
 }
 
 /// Depths and falls of a fill.
 #[must_use]
-pub(crate) fn pool(facts: &Facts, extents: [usize; 3], solids: &[u8], fill: &[f64]) -> Pool {
+pub(crate) fn pool(facts: &Facts, extents: [usize; 3], solids: &[u8], drawing: &Drawing) -> Pool {
+    let fill = &drawing.fill;
     let dx = facts.scene.domain.spacing_m;
     let (up, down_is_low) = (facts.forces.up, facts.forces.down_is_low);
     let solid = |cell: usize| solids.get(cell).is_some_and(|&s| s != 0);
@@ -106,8 +148,8 @@ pub(crate) fn pool(facts: &Facts, extents: [usize; 3], solids: &[u8], fill: &[f6
     let deepest = depths.iter().copied().fold(0.0, |a, b| if b > a { b } else { a });
     // A thousandth of a cell is no gradient that drives anything.
     let level = depths.iter().all(|depth| (depth - deepest).abs() < 1e-3);
-    let volume = fill.iter().sum::<f64>() * dx * dx * dx;
-    Pool { up, down_is_low, depth: deepest * dx, level, runs, fall: fall * dx, volume }
+    let [volume, drawn] = [fill.iter().sum(), drawing.volume].map(|cells: f64| cells * dx * dx * dx);
+    Pool { up, down_is_low, depth: deepest * dx, level, runs, fall: fall * dx, volume, drawn }
 }
 
 /// Calls `visit` with the cells of every line along an axis, low end first.

@@ -3,7 +3,7 @@
 use super::cells::Cells;
 use super::error::PlanProblem;
 use super::facts::Facts;
-use super::surface::{level_shape, shares};
+use super::surface::{Ground, level_shape};
 use crate::geometry::{Axis, Shape};
 use crate::lattice::C;
 use crate::scene::{Boundary, FACE_KEYS, Scene};
@@ -23,13 +23,16 @@ pub(super) fn surface(facts: &Facts, cells: &Cells) -> Found {
     });
     for (path, name, shape) in level.chain(parts) {
         let name = name.to_owned();
-        let filled =
-            |solids: &[u8]| shares(&[shape], cells.extents, dx, solids).iter().any(|&fill| fill > 0.0);
-        if !filled(&[]) {
+        let ground = Ground::of(facts, cells.extents, &cells.solids);
+        let filled = |ground: &Ground| ground.draw(&[shape]).fill.iter().any(|&fill| fill > 0.0);
+        if !filled(&ground.bare()) {
             return Err((path, PlanProblem::NoCellFilled { name, spacing: dx }));
         }
-        if !cells.solids.is_empty() && !filled(&cells.solids) {
-            return Err((path, PlanProblem::FluidInsideSolids { name, solids: around(scene, cells, shape) }));
+        if !cells.solids.is_empty() && !filled(&ground) {
+            return Err((
+                path,
+                PlanProblem::FluidInsideSolids { name, solids: around(scene, &ground, shape) },
+            ));
         }
     }
     room(cells, facts)?;
@@ -37,10 +40,10 @@ pub(super) fn surface(facts: &Facts, cells: &Cells) -> Found {
 }
 
 /// Names of the solids that hold the cells of a shape.
-fn around(scene: &Scene, cells: &Cells, shape: &Shape) -> String {
-    let inside = shares(&[shape], cells.extents, scene.domain.spacing_m, &[]);
-    let mut numbers: Vec<u8> =
-        inside.iter().zip(&cells.solids).filter(|(fill, _)| **fill > 0.0).map(|(_, &s)| s).collect();
+fn around(scene: &Scene, ground: &Ground, shape: &Shape) -> String {
+    let inside = ground.bare().draw(&[shape]).fill;
+    let cells = inside.iter().zip(ground.solids).filter(|(fill, _)| **fill > 0.0);
+    let mut numbers: Vec<u8> = cells.map(|(_, &s)| s).collect();
     numbers.sort_unstable();
     numbers.dedup();
     let name = |s: &u8| scene.solids.get(usize::from(*s) - 1).map(|solid| format!("`{}`", solid.name));

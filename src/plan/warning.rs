@@ -136,6 +136,20 @@ pub enum Warning {
         /// Share of the mass.
         share: f64,
     },
+    /// Another volume than drawn.
+    #[error(
+        "the cells hold {} m³ of fluid where {} m³ are drawn ({:+.1} %): a cell is solid or open as a whole; a finer spacing \
+         brings both together",
+        short(*volume_m3),
+        short(*drawn_m3),
+        100.0 * (volume_m3 / drawn_m3 - 1.0)
+    )]
+    OtherVolume {
+        /// In the cells, m³.
+        volume_m3: f64,
+        /// As drawn, m³.
+        drawn_m3: f64,
+    },
     /// Small grains.
     #[error(
         "the smallest grain has a radius of {} cells: expect its drag to be off by {:.1} %; 2.2 cells give 5 %, 3.35 \

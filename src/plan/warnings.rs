@@ -10,6 +10,9 @@ use crate::setup::{Precision, YieldTreatment};
 /// Excess mass worth a warning: 0.4 % of the volume moves the front of a long thin flow by as much.
 const LEAST_EXCESS: f64 = 4e-3;
 
+/// Difference of the volume in the cells from that drawn that is worth a warning: it moves a front by as much.
+const OTHER_VOLUME: f64 = 1e-2;
+
 /// All of them, in the order in which they are printed.
 pub(super) fn warnings(n: &Numbers, basis: &Basis) -> Vec<Warning> {
     let mut all = of_the_flow(n);
@@ -58,7 +61,12 @@ fn of_the_scheme(n: &Numbers, basis: &Basis) -> Vec<Warning> {
 fn of_the_surface(n: &Numbers) -> Vec<Warning> {
     let Some(depth) = n.depth_cells else { return Vec::new() };
     let at_rest = n.arrest_thickness_m.map_or(f64::INFINITY, |thickness| thickness / n.spacing_m);
+    let (volume_m3, drawn_m3) = (n.volume_m3.unwrap_or(0.0), n.drawn_m3.unwrap_or(0.0));
     holding([
+        (
+            (volume_m3 - drawn_m3).abs() > OTHER_VOLUME * drawn_m3,
+            Warning::OtherVolume { volume_m3, drawn_m3 },
+        ),
         (depth < 4.0, Warning::Shallow { cells: depth }),
         (at_rest < 4.0, Warning::ThinDeposit { cells: at_rest }),
     ])

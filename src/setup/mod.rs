@@ -323,6 +323,12 @@ impl Setup {
         setup
     }
 
+    /// Per axis: whether its two faces are one.
+    #[must_use]
+    pub fn periodic_axes(&self) -> [bool; 3] {
+        self.faces.map(|faces| faces[0] == Face::Periodic)
+    }
+
     /// Number of cells in the box, fluid or solid.
     #[must_use]
     pub fn cells(&self) -> usize {

@@ -48,7 +48,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             None if !with_gas => vec![0.0; kinds.len()],
             None => {
                 let fill: Vec<f64> = (0..kinds.len()).map(own_fill).collect();
-                hydrostatic::density_excess(setup.extents, &kinds, &fill, &drawn_force)
+                hydrostatic::density_excess(setup.extents, setup.periodic_axes(), &kinds, &fill, &drawn_force)
             }
         };
         let mut wet = vec![false; self.layout.places()];

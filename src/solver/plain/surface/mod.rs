@@ -100,7 +100,8 @@ impl<S: SurfacePhysics> Surface<S> {
         if setup.initial.is_some() || setup.free_surface.is_none() {
             return Vec::new();
         }
-        hydrostatic::density_excess(setup.extents, &self.kinds, &self.fill, &setup.force.at(0))
+        let periodic = setup.periodic_axes();
+        hydrostatic::density_excess(setup.extents, periodic, &self.kinds, &self.fill, &setup.force.at(0))
     }
 
     /// Velocity and mass of a fluid cell with these populations.
