@@ -9,6 +9,7 @@ mod fluid;
 mod grains;
 mod measure;
 mod recorder;
+pub mod rest;
 mod schedule;
 mod stop;
 pub mod summary;
@@ -19,6 +20,7 @@ use std::path::PathBuf;
 pub use driver::Finished;
 pub use error::RunError;
 pub use grains::books::fingerprint;
+pub use rest::RestOutcome;
 pub use stop::{StopPlace, StopReport};
 pub use summary::{Ended, Summary};
 

@@ -9,16 +9,17 @@ mod stop;
 
 use super::driver::Experiment;
 use super::error::RunError;
-use super::measure::fields::{max_speed, weighted_speed};
+use super::measure::fields::max_speed;
 use super::measure::fluid::{Fluid, Frame};
 use super::measure::quantity::Quantity;
+use super::measure::rest::{self, Pace};
 use super::measure::{Probes, State};
 use super::recorder::Recorder;
 use super::stop::StopReport;
 use super::summary::Parts;
 use crate::output::OutputError;
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{RestMeasure, Scene};
 use crate::solver::run::{Backend, Fields, Run};
 use crate::solver::steady::{SteadyOutcome, Watch, push};
 use files::{Files, Shot};
@@ -164,11 +165,14 @@ impl Experiment for Flow<'_> {
         self.watch.as_ref().map(Watch::outcome)
     }
 
-    /// Of fluid and grains; each cell's times its fill.
-    fn speed_m_per_s(&self) -> f64 {
-        let grains = self.grains.as_ref().zip(self.run.grains());
-        let grains = grains.map_or(0.0, |(part, grains)| part.grains(grains, 0.0).view.max_speed());
-        self.plan.units.velocity_to_si(weighted_speed(&self.fields)).max(grains)
+    /// Of fluid and grains, each by itself.
+    fn pace(&self, measure: RestMeasure) -> Pace {
+        let fluid = Fluid { run: self.run.as_ref(), fields: &self.fields, frame: &self.frame };
+        let fluid = rest::of_fluid(&fluid, measure);
+        match self.grains.as_ref().zip(self.run.grains()) {
+            Some((part, grains)) => fluid.or(rest::of_grains(&part.grains(grains, 0.0).view, measure)),
+            None => fluid,
+        }
     }
 
     fn row(&mut self) -> Vec<(String, Vec<Quantity>)> {

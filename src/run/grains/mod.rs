@@ -11,6 +11,7 @@ use super::driver::Experiment;
 use super::error::RunError;
 use super::measure::grains::Grains;
 use super::measure::quantity::Quantity;
+use super::measure::rest::{self, Pace};
 use super::measure::{Probes, State};
 use super::recorder::Recorder;
 use super::stop::StopReport;
@@ -19,6 +20,7 @@ use super::view::View;
 use crate::dem::Dem;
 use crate::output::OutputError;
 use crate::plan::grains::GrainPlan;
+use crate::scene::RestMeasure;
 use crate::scene::dry::DryScene;
 use files::Files;
 use population::Population;
@@ -113,8 +115,8 @@ impl Experiment for Dry<'_> {
         self.population.nothing_left(&self.dem)
     }
 
-    fn speed_m_per_s(&self) -> f64 {
-        self.view().max_speed()
+    fn pace(&self, measure: RestMeasure) -> Pace {
+        rest::of_grains(&self.view(), measure)
     }
 
     fn row(&mut self) -> Vec<(String, Vec<Quantity>)> {

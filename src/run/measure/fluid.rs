@@ -91,17 +91,25 @@ impl Fluid<'_> {
         one("m/s", self.frame.units.velocity_to_si(max_speed(self.fields)))
     }
 
-    pub fn kinetic_energy(&self) -> Vec<Quantity> {
+    pub(super) fn kinetic_energy_j(&self) -> f64 {
         let velocity_unit = self.frame.units.velocity_unit();
-        one("J", self.run.totals().kinetic_energy * self.mass_unit() * velocity_unit * velocity_unit)
+        self.run.totals().kinetic_energy * self.mass_unit() * velocity_unit * velocity_unit
     }
 
-    pub(crate) fn mass(&self) -> Vec<Quantity> {
+    pub fn kinetic_energy(&self) -> Vec<Quantity> {
+        one("J", self.kinetic_energy_j())
+    }
+
+    pub(super) fn mass_kg(&self) -> f64 {
         let mass = match self.run.ledger() {
             Some(ledger) => ledger.mass,
             None => self.run.fluid_cells() as f64 + self.run.totals().mass_excess,
         };
-        one("kg", mass * self.mass_unit())
+        mass * self.mass_unit()
+    }
+
+    pub(crate) fn mass(&self) -> Vec<Quantity> {
+        one("kg", self.mass_kg())
     }
 
     /// Share of the fluid cells that are unyielded.

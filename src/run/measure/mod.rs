@@ -7,7 +7,9 @@ mod crossings;
 pub(super) mod fields;
 pub(super) mod fluid;
 pub(super) mod grains;
+mod quantile;
 pub(super) mod quantity;
+pub(super) mod rest;
 
 use contacts::Contacts;
 use crossings::Crossings;
