@@ -161,6 +161,7 @@ fn summary(ended: Ended, parts: Parts) -> Summary {
         parts,
         not_steady: None,
         rest: None,
+        loads: Vec::new(),
         stopped: (ended == Ended::Stopped).then(|| "a guard".to_owned()),
     }
 }

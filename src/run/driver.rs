@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use super::error::RunError;
+use super::load_summary::LoadSummary;
 use super::measure::quantity::Quantity;
 use super::measure::rest::Pace;
 use super::recorder::Recorder;
@@ -87,6 +88,9 @@ pub(super) trait Experiment {
     /// # Errors
     /// I/O.
     fn finish(&self, recorder: &Recorder) -> Result<(), OutputError>;
+
+    /// What the loads on solids and walls have been so far.
+    fn loads(&self) -> Vec<LoadSummary>;
 
     /// What people are told about the state.
     fn line(&self) -> String;
@@ -298,6 +302,7 @@ impl Driver<'_> {
             parts: self.experiment.parts(),
             not_steady: finished.steadiness.filter(|found| !found.steady).map(|found| found.to_string()),
             rest: finished.rest,
+            loads: self.experiment.loads(),
             stopped,
         };
         summary.write(&self.recorder.path("summary.json"))

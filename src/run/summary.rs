@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::load_summary::LoadSummary;
 use super::rest::RestOutcome;
 use crate::dem::Energies;
 use crate::fingerprint::Fingerprint;
@@ -75,6 +76,9 @@ pub struct Summary {
     /// What the checks for rest found; only with `stop.arrested`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rest: Option<RestOutcome>,
+    /// Loads on solids and walls, one entry per `force` or `torque` probe.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub loads: Vec<LoadSummary>,
     /// Why a guard stopped the run, if one did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,
