@@ -214,13 +214,14 @@ fn run(
 
 /// How a run went, in a line.
 fn done(planned: &Planned, finished: &Finished) -> String {
-    let found = finished.steadiness.map_or_else(String::new, |found| format!(", {found}"));
+    let steady = finished.steadiness.map(|found| format!(", {found}")).unwrap_or_default();
+    let rest = finished.rest.map(|found| format!(", {found}")).unwrap_or_default();
     let updates = match planned {
         Planned::Flow(..) => "updates",
         Planned::Dry(..) => "sphere updates",
     };
     format!(
-        "done: {} steps, {:.6} s ({}{found}), {:.1} s of computing, {:.2} million {updates} per second",
+        "done: {} steps, {:.6} s ({}{steady}{rest}), {:.1} s of computing, {:.2} million {updates} per second",
         finished.steps,
         finished.time_s,
         finished.ended.words(),

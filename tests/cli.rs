@@ -280,7 +280,7 @@ fn fluid_at_rest_ends_the_run() {
     let output = lahar(&["run", &path.to_string_lossy(), "--out", &out.to_string_lossy()]);
     let message = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{message}");
-    assert!(message.contains("(at rest)"), "{message}");
+    assert!(message.contains("(at rest, "), "{message}");
     let summary = Summary::read(&out.join("summary.json")).expect("a summary");
     // Not before the stretch of rest is over, and long before the end.
     assert!(summary.ended == Ended::AtRest && (0.5..10.0).contains(&summary.time_s), "{}", summary.time_s);

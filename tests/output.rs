@@ -160,6 +160,8 @@ fn summary(ended: Ended, parts: Parts) -> Summary {
         million_updates_per_second: f64::INFINITY,
         parts,
         not_steady: None,
+        rest: None,
+        loads: Vec::new(),
         stopped: (ended == Ended::Stopped).then(|| "a guard".to_owned()),
     }
 }

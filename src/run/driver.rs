@@ -3,13 +3,17 @@
 use std::time::Instant;
 
 use super::error::RunError;
+use super::load_summary::LoadSummary;
 use super::measure::quantity::Quantity;
+use super::measure::rest::Pace;
 use super::recorder::Recorder;
+use super::rest::{RestOutcome, RestWatch};
 use super::schedule::{Cadences, Schedule};
 use super::stop::StopReport;
 use super::summary::{Ended, Parts, Summary};
 use crate::output::OutputError;
 use crate::output::progress::Progress;
+use crate::scene::RestMeasure;
 use crate::solver::steady::SteadyOutcome;
 
 /// What a run moves: a fluid, grains, or both.
@@ -61,8 +65,8 @@ pub(super) trait Experiment {
         None
     }
 
-    /// Largest speed that counts for being at rest, m/s.
-    fn speed_m_per_s(&self) -> f64;
+    /// How fast everything is, for being at rest.
+    fn pace(&self, measure: RestMeasure) -> Pace;
 
     /// What every probe says now; means begin anew.
     fn row(&mut self) -> Vec<(String, Vec<Quantity>)>;
@@ -84,6 +88,9 @@ pub(super) trait Experiment {
     /// # Errors
     /// I/O.
     fn finish(&self, recorder: &Recorder) -> Result<(), OutputError>;
+
+    /// What the loads on solids and walls have been so far.
+    fn loads(&self) -> Vec<LoadSummary>;
 
     /// What people are told about the state.
     fn line(&self) -> String;
@@ -119,6 +126,8 @@ pub struct Finished {
     pub ended: Ended,
     /// What looking for steadiness found; `None` where that was not asked for.
     pub steadiness: Option<SteadyOutcome>,
+    /// What looking for rest found; `None` where that was not asked for.
+    pub rest: Option<RestOutcome>,
     /// Wall-clock time of the stepping, s.
     pub wall_seconds: f64,
     /// Million updates per second, of cells, or of spheres without fluid.
@@ -135,8 +144,8 @@ pub(super) fn drive(
     order: Order,
     progress: &Progress,
 ) -> Result<Finished, RunError> {
-    let mut driver =
-        Driver { experiment, recorder, order, progress, stepping: 0.0, updates: 0.0, at_rest_since: None };
+    let rest = order.cadences.arrested.map(RestWatch::new);
+    let mut driver = Driver { experiment, recorder, order, progress, stepping: 0.0, updates: 0.0, rest };
     let result = driver.drive();
     progress.finish();
     result
@@ -151,8 +160,8 @@ struct Driver<'a> {
     stepping: f64,
     /// Updates so far; the number of fluid cells changes with a free surface.
     updates: f64,
-    /// Time of the first of the latest unbroken row of checks that found everything at rest, s.
-    at_rest_since: Option<f64>,
+    /// Looks for rest, where the scene asks for it.
+    rest: Option<RestWatch>,
 }
 
 impl Driver<'_> {
@@ -222,17 +231,11 @@ impl Driver<'_> {
         }
     }
 
-    /// Whether every check of the last `for_s` found everything slower than the limit.
+    /// Looks whether everything is at rest.
     fn is_at_rest(&mut self) -> bool {
-        let Some(rule) = self.order.cadences.arrested else { return false };
-        let time = self.experiment.time_s();
-        if self.experiment.speed_m_per_s() >= rule.speed_m_per_s {
-            self.at_rest_since = None;
-            return false;
-        }
-        let since = *self.at_rest_since.get_or_insert(time);
-        // Checks fall on whole steps: half a step is no difference.
-        time - since >= rule.for_s - 0.5 * self.experiment.step_s()
+        let Some(watch) = &mut self.rest else { return false };
+        let pace = self.experiment.pace(watch.measure());
+        watch.look(self.experiment.time_s(), pace, self.experiment.step_s())
     }
 
     /// Writes what is due; `last`: everything.
@@ -278,6 +281,7 @@ impl Driver<'_> {
             time_s: self.experiment.time_s(),
             ended,
             steadiness: self.experiment.steadiness(),
+            rest: self.rest.as_ref().map(RestWatch::outcome),
             wall_seconds: self.stepping,
             million_updates_per_second: rate,
         }
@@ -297,6 +301,8 @@ impl Driver<'_> {
             million_updates_per_second: finished.million_updates_per_second,
             parts: self.experiment.parts(),
             not_steady: finished.steadiness.filter(|found| !found.steady).map(|found| found.to_string()),
+            rest: finished.rest,
+            loads: self.experiment.loads(),
             stopped,
         };
         summary.write(&self.recorder.path("summary.json"))

@@ -25,6 +25,14 @@ pub(super) struct Cadences {
     pub arrested: Option<Arrested>,
 }
 
+/// Time between the rows of a series, s; `end`: end time of the scene, s.
+pub(super) fn between_rows(series: Option<Cadence>, end: f64) -> f64 {
+    match series.unwrap_or(Cadence::Count(DEFAULT_ROWS)) {
+        Cadence::EverySeconds(every) => every,
+        Cadence::Count(count) => end / f64::from(count.max(1)),
+    }
+}
+
 impl Cadences {
     /// Of a scene with fluid.
     pub(crate) fn of_flow(scene: &Scene) -> Self {

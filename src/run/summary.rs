@@ -4,6 +4,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::load_summary::LoadSummary;
+use super::rest::RestOutcome;
 use crate::dem::Energies;
 use crate::fingerprint::Fingerprint;
 use crate::output::{OutputError, atomic, number};
@@ -71,6 +73,12 @@ pub struct Summary {
     /// What still changed at the end of a run that was to become steady and did not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub not_steady: Option<String>,
+    /// What the checks for rest found; only with `stop.arrested`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rest: Option<RestOutcome>,
+    /// Loads on solids and walls, one entry per `force` or `torque` probe.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub loads: Vec<LoadSummary>,
     /// Why a guard stopped the run, if one did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,

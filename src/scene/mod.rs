@@ -37,7 +37,7 @@ pub use fluid::{
 pub use motion::{FACE_KEYS, Motion, Motions};
 pub use numerics::{
     Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Numerics, Output, PrecisionChoice, RefillChoice,
-    SolidSurface, Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
+    RestMeasure, SolidSurface, Steady, Stop, SurfaceGravity, SurfaceRules, WallChoice, YieldChoice,
 };
 pub use operator::Operator;
 pub use probe::{Measure, Probe, Subject, Target};

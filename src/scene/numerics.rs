@@ -204,17 +204,52 @@ pub struct Stop {
     pub arrested: Option<Arrested>,
 }
 
-/// At rest when the largest speed, each cell's times its fill, stays below a limit at every check of a
-/// stretch of time.
+/// At rest when a measure of the speed stays below a limit at every check of a stretch of time. With fluid and grains it
+/// must be below for either.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Arrested {
+    /// Which speed it is that must stay below the limit; the speed that 99 % of the mass does not exceed when not given.
+    #[serde(default)]
+    pub measure: RestMeasure,
     /// The limit, m/s.
     pub speed_m_per_s: f64,
     /// How long it must stay below, s.
     pub for_s: f64,
     /// Time between checks, s.
     pub check_every_s: f64,
+}
+
+/// Share of the mass that has to be slow when the scene does not say.
+const SLOW_SHARE: f64 = 0.99;
+
+fn slow_share() -> f64 {
+    SLOW_SHARE
+}
+
+/// The speed that counts for being at rest. Gas cells and driven grains never count; grains count with the speed of their
+/// centres of mass.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum RestMeasure {
+    /// The least speed that a share of the mass does not exceed: what the rest of it does, be it spray at 10 m/s or
+    /// a surface cell that creeps, does not count.
+    MassPercentile {
+        /// The share, no unit; 0.99 when not given.
+        #[serde(default = "slow_share")]
+        share: f64,
+    },
+    /// √(2 E/m) with the kinetic energy E and the mass m: the root mean square of the speed over the mass. A single fast
+    /// drop of mass m₁ and speed v₁ counts with v₁ √(m₁/m).
+    Rms,
+    /// The largest speed, of fluid each cell's times its fill: a single cell or grain can keep it up.
+    Largest,
+}
+
+impl Default for RestMeasure {
+    fn default() -> Self {
+        Self::MassPercentile { share: SLOW_SHARE }
+    }
 }
 
 /// Steady when at two checks in a row the largest change of velocity over one check interval, divided by the largest speed,

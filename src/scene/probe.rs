@@ -99,6 +99,8 @@ pub enum Measure {
     /// the part of the fluid, and that of contacts follows: its mean over the time since the last row, N, its largest
     /// value in that time, N, and its impulse since time 0, N s. `on` something: force of the grains alone, N, and its
     /// torque about the centre of rotation, N m.
+    ///
+    /// At the end `loads` in `summary.json` gives impulse, peaks, centre of pressure and overturning moment of all of it.
     Force {
         /// Name of a solid in the fluid. Give this or `on`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -106,6 +108,13 @@ pub enum Measure {
         /// What the grains push. Give this or `solid`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         on: Option<Target>,
+        /// The point of the moments in `summary.json`, m. When not given that of a `solid` is the middle of its foot, the
+        /// lower side of the box around it, and that `on` something its centre of rotation.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        about_m: Option<[f64; 3]>,
+        /// Length of the moving mean in `summary.json`, s; the time between rows of the series when not given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        window_s: Option<f64>,
     },
     /// Torque of the fluid on a solid, N m, by momentum exchange; of the last step, and the pressure of the air counts as
     /// 0 as in `force`.
@@ -115,6 +124,9 @@ pub enum Measure {
         /// The point it is about, m; the solid's centre of rotation when not given.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         about_m: Option<[f64; 3]>,
+        /// Length of the moving mean in `summary.json`, s; the time between rows of the series when not given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        window_s: Option<f64>,
     },
     /// Mass, kg, and what became of it: relative residual of the ledger, outflow and parked excess, kg,
     /// momentum residual, N s, and the number of cells that changed kind.

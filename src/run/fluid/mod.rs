@@ -9,16 +9,20 @@ mod stop;
 
 use super::driver::Experiment;
 use super::error::RunError;
-use super::measure::fields::{max_speed, weighted_speed};
+use super::load_summary::LoadSummary;
+use super::measure::fields::max_speed;
 use super::measure::fluid::{Fluid, Frame};
+use super::measure::loads::{Loads, of_flow, start_of_moments};
 use super::measure::quantity::Quantity;
+use super::measure::rest::{self, Pace};
 use super::measure::{Probes, State};
 use super::recorder::Recorder;
+use super::schedule::between_rows;
 use super::stop::StopReport;
 use super::summary::Parts;
 use crate::output::OutputError;
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{Measure, RestMeasure, Scene};
 use crate::solver::run::{Backend, Fields, Run};
 use crate::solver::steady::{SteadyOutcome, Watch, push};
 use files::{Files, Shot};
@@ -41,8 +45,8 @@ pub(super) struct Flow<'a> {
     probes: Probes,
     files: Files<'a>,
     grains: Option<InFluid<'a>>,
-    /// Whether forces of contacts have to be looked at in every step.
-    every_step: bool,
+    /// Loads on solids, looked at in every step.
+    loads: Loads,
     /// Mass excess at time 0, lattice units.
     mass_at_start: f64,
     /// Looks for steadiness, where the scene asks for it.
@@ -67,9 +71,11 @@ impl<'a> Flow<'a> {
         let probes = Probes::of_flow(scene);
         let grains = plan.grains.as_ref().zip(run.grains());
         let grains = grains.map(|(coupled, grains)| InFluid::new(coupled, grains, recorder));
-        let loads = probes.iter().any(|(probe, _)| probe.measure.loaded_solid().is_some());
+        let rows = between_rows(scene.output.series, scene.stop.end_time_s);
+        let about = |measure: &Measure| start_of_moments(scene, plan, measure);
+        let loads = Loads::new(&probes, rows, plan.units.dt_s, crate::scene::force::up(scene).0, &about);
         Ok(Self {
-            every_step: grains.is_some() && loads,
+            loads,
             fields: run.fields(),
             mass_at_start: run.totals().mass_excess,
             frame: Frame::new(scene, plan.units),
@@ -92,6 +98,18 @@ impl<'a> Flow<'a> {
         self.watch = watch;
         // The first look is at the start.
         self.is_steady();
+    }
+
+    /// Takes down what every step brings to solids and walls.
+    fn sample_loads(&mut self) {
+        if !self.loads.any() {
+            return;
+        }
+        let time = self.time_s();
+        let fluid = Fluid { run: self.run.as_ref(), fields: &self.fields, frame: &self.frame };
+        let walls = self.plan.grains.as_ref().map(|coupled| &coupled.grains.walls);
+        let grains = self.run.grains().zip(walls);
+        self.loads.sample(time, &|measure, about| of_flow(&fluid, grains, measure, about));
     }
 
     fn opens(&self) -> bool {
@@ -117,7 +135,7 @@ impl Experiment for Flow<'_> {
     }
 
     fn stride(&self) -> u64 {
-        let stride = if self.every_step { 1 } else { (UPDATES_PER_MOVE / self.size().max(1)).max(1) };
+        let stride = if self.loads.any() { 1 } else { (UPDATES_PER_MOVE / self.size().max(1)).max(1) };
         if self.opens() { stride.min(STEPS_PER_LOOK - self.step() % STEPS_PER_LOOK) } else { stride }
     }
 
@@ -135,8 +153,9 @@ impl Experiment for Flow<'_> {
 
     fn tidy(&mut self) {
         let opens = self.opens();
+        self.sample_loads();
         let Some(grains) = &mut self.grains else { return };
-        if let (true, Some(immersed)) = (self.every_step, self.run.grains()) {
+        if let (true, Some(immersed)) = (self.loads.any(), self.run.grains()) {
             grains.contacts.sample(immersed, self.plan.units.dt_s);
         }
         if opens && self.run.step().is_multiple_of(STEPS_PER_LOOK) {
@@ -164,11 +183,14 @@ impl Experiment for Flow<'_> {
         self.watch.as_ref().map(Watch::outcome)
     }
 
-    /// Of fluid and grains; each cell's times its fill.
-    fn speed_m_per_s(&self) -> f64 {
-        let grains = self.grains.as_ref().zip(self.run.grains());
-        let grains = grains.map_or(0.0, |(part, grains)| part.grains(grains, 0.0).view.max_speed());
-        self.plan.units.velocity_to_si(weighted_speed(&self.fields)).max(grains)
+    /// Of fluid and grains, each by itself.
+    fn pace(&self, measure: RestMeasure) -> Pace {
+        let fluid = Fluid { run: self.run.as_ref(), fields: &self.fields, frame: &self.frame };
+        let fluid = rest::of_fluid(&fluid, measure);
+        match self.grains.as_ref().zip(self.run.grains()) {
+            Some((part, grains)) => fluid.or(rest::of_grains(&part.grains(grains, 0.0).view, measure)),
+            None => fluid,
+        }
     }
 
     fn row(&mut self) -> Vec<(String, Vec<Quantity>)> {
@@ -217,6 +239,10 @@ impl Experiment for Flow<'_> {
         plots.draw(&self.probes)?;
         let Some((part, grains)) = self.grains.as_ref().zip(self.run.grains()) else { return Ok(()) };
         part.finish(grains, self.time_s(), recorder, &self.probes, title)
+    }
+
+    fn loads(&self) -> Vec<LoadSummary> {
+        self.loads.summaries()
     }
 
     fn line(&self) -> String {

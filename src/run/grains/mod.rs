@@ -9,17 +9,23 @@ mod walls;
 
 use super::driver::Experiment;
 use super::error::RunError;
+use super::load_summary::LoadSummary;
 use super::measure::grains::Grains;
+use super::measure::loads::{Loads, of_walls, start_of_walls};
 use super::measure::quantity::Quantity;
+use super::measure::rest::{self, Pace};
 use super::measure::{Probes, State};
 use super::recorder::Recorder;
+use super::schedule::between_rows;
 use super::stop::StopReport;
 use super::summary::Parts;
 use super::view::View;
 use crate::dem::Dem;
+use crate::geometry::Axis;
 use crate::output::OutputError;
 use crate::plan::grains::GrainPlan;
 use crate::scene::dry::DryScene;
+use crate::scene::{Measure, RestMeasure};
 use files::Files;
 use population::Population;
 
@@ -35,6 +41,8 @@ pub(super) struct Dry<'a> {
     dem: Dem,
     population: Population,
     probes: Probes,
+    /// Loads on walls, looked at in every step.
+    loads: Loads,
     files: Files<'a>,
 }
 
@@ -51,9 +59,14 @@ impl<'a> Dry<'a> {
         let refused = |error| RunError::Stopped(Box::new(stop::refused(&scene.file, &error)));
         let dem = Dem::new(&plan.setup).map_err(refused)?;
         let size_m = scene.domain.size_m;
+        let probes = Probes::of_grains(scene);
+        let rows = between_rows(scene.output.series, scene.stop.end_time_s);
+        let about = |measure: &Measure| start_of_walls(plan, measure);
+        let loads = Loads::new(&probes, rows, dem.time_step(), up(scene), &about);
         Ok(Self {
             population: Population::new(plan, size_m, &dem),
-            probes: Probes::of_grains(scene),
+            probes,
+            loads,
             files: Files::new(plan, size_m, &recorder.path("")),
             scene,
             plan,
@@ -64,6 +77,15 @@ impl<'a> Dry<'a> {
     fn view(&self) -> View<'_> {
         self.population.view(&self.dem, self.dem.time())
     }
+}
+
+/// The axis along which gravity is strongest; z without any.
+fn up(scene: &DryScene) -> Axis {
+    let direction = scene.gravity();
+    let stronger = |most: Axis, axis: Axis| {
+        if direction[axis.index()].abs() > direction[most.index()].abs() { axis } else { most }
+    };
+    [Axis::Y, Axis::X].into_iter().fold(Axis::Z, stronger)
 }
 
 impl Experiment for Dry<'_> {
@@ -84,7 +106,7 @@ impl Experiment for Dry<'_> {
     }
 
     fn stride(&self) -> u64 {
-        let stride = (UPDATES_PER_MOVE / self.size().max(1)).max(1);
+        let stride = if self.loads.any() { 1 } else { (UPDATES_PER_MOVE / self.size().max(1)).max(1) };
         if self.population.has_open_faces() {
             stride.min(STEPS_PER_LOOK - self.step() % STEPS_PER_LOOK)
         } else {
@@ -98,8 +120,10 @@ impl Experiment for Dry<'_> {
         result.map_err(|error| Box::new(report(error)))
     }
 
-    /// Takes out the free grains that are wholly beyond an open face.
+    /// Takes down the loads and takes out the free grains that are wholly beyond an open face.
     fn tidy(&mut self) {
+        let (dem, walls) = (&self.dem, &self.plan.walls);
+        self.loads.sample(dem.time(), &|measure, about| of_walls(dem, walls, measure, about));
         if !self.population.has_open_faces() {
             return;
         }
@@ -113,8 +137,8 @@ impl Experiment for Dry<'_> {
         self.population.nothing_left(&self.dem)
     }
 
-    fn speed_m_per_s(&self) -> f64 {
-        self.view().max_speed()
+    fn pace(&self, measure: RestMeasure) -> Pace {
+        rest::of_grains(&self.view(), measure)
     }
 
     fn row(&mut self) -> Vec<(String, Vec<Quantity>)> {
@@ -136,6 +160,10 @@ impl Experiment for Dry<'_> {
         self.files.tables(&view)?;
         pictures::plots(recorder, &self.probes, &self.plan.numbers.title)?;
         pictures::picture(&recorder.path("plots"), self.plan, self.scene.domain.size_m, &view)
+    }
+
+    fn loads(&self) -> Vec<LoadSummary> {
+        self.loads.summaries()
     }
 
     fn line(&self) -> String {

@@ -2,6 +2,7 @@
 
 use super::columns::{Upright, front};
 use super::fields::{fill, is_fluid, layer, max_speed, unyielded, window};
+use super::moving_mean::Wrench;
 use super::quantity::{Quantity, one, several, vector, vectors};
 use crate::geometry::Axis;
 use crate::scene::Scene;
@@ -91,17 +92,25 @@ impl Fluid<'_> {
         one("m/s", self.frame.units.velocity_to_si(max_speed(self.fields)))
     }
 
-    pub fn kinetic_energy(&self) -> Vec<Quantity> {
+    pub(super) fn kinetic_energy_j(&self) -> f64 {
         let velocity_unit = self.frame.units.velocity_unit();
-        one("J", self.run.totals().kinetic_energy * self.mass_unit() * velocity_unit * velocity_unit)
+        self.run.totals().kinetic_energy * self.mass_unit() * velocity_unit * velocity_unit
     }
 
-    pub(crate) fn mass(&self) -> Vec<Quantity> {
+    pub fn kinetic_energy(&self) -> Vec<Quantity> {
+        one("J", self.kinetic_energy_j())
+    }
+
+    pub(super) fn mass_kg(&self) -> f64 {
         let mass = match self.run.ledger() {
             Some(ledger) => ledger.mass,
             None => self.run.fluid_cells() as f64 + self.run.totals().mass_excess,
         };
-        one("kg", mass * self.mass_unit())
+        mass * self.mass_unit()
+    }
+
+    pub(crate) fn mass(&self) -> Vec<Quantity> {
+        one("kg", self.mass_kg())
     }
 
     /// Share of the fluid cells that are unyielded.
@@ -177,15 +186,22 @@ impl Fluid<'_> {
         (centre, load)
     }
 
-    /// Torque on a solid about a point, M_p = M_c + (c − p) × F; about its centre of rotation c without one.
-    pub fn torque(&self, solid: &str, about_m: Option<[f64; 3]>) -> Vec<Quantity> {
+    /// Force on a solid, N, and its torque about a point, N m, M_p = M_c + (c − p) × F; about its centre of rotation c
+    /// without one.
+    pub(super) fn wrench(&self, solid: &str, about_m: Option<[f64; 3]>) -> Wrench {
         let (centre, load) = self.load_on(solid);
         let units = &self.frame.units;
         let about = about_m.map_or(centre, |p| p.map(|x| units.length_to_lattice(x)));
         let moved = cross(sub(centre, about), load.force);
         let area = units.dx_m * units.dx_m;
-        let unit = units.force_unit() * area * area;
-        vector("", "N m", std::array::from_fn(|a| (load.torque[a] + moved[a]) * unit))
+        let [newton, metre] = [units.force_unit() * area * units.dx_m, units.force_unit() * area * area];
+        let moment = std::array::from_fn(|a| (load.torque[a] + moved[a]) * metre);
+        Wrench { force: load.force.map(|f| f * newton), moment }
+    }
+
+    /// Torque on a solid about a point; about its centre of rotation without one.
+    pub fn torque(&self, solid: &str, about_m: Option<[f64; 3]>) -> Vec<Quantity> {
+        vector("", "N m", self.wrench(solid, about_m).moment)
     }
 
     /// Force, impulse, and wetted area by axis and side of a solid: `area_x_low` has its fluid at smaller x.

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::quantile::quantile;
 use super::quantity::{Quantity, one, several, vector, vectors};
 use crate::dem::V3;
 use crate::geometry::Axis;
@@ -158,20 +159,6 @@ fn class_means(mut sized: Vec<(f64, f64)>, classes: usize) -> Vec<f64> {
     (0..classes).map(mean).collect()
 }
 
-/// The place below which lies a share of the mass; NaN without any.
-fn quantile(mut places: Vec<(f64, f64)>, share: f64) -> f64 {
-    places.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let total: f64 = places.iter().map(|p| p.1).sum();
-    let mut below = 0.0;
-    for (x, mass) in &places {
-        below += mass;
-        if below > share * total {
-            return *x;
-        }
-    }
-    places.last().map_or(f64::NAN, |p| p.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -181,15 +168,5 @@ mod tests {
         let sized = vec![(2.0, 10.0), (1.0, 1.0), (3.0, 5.0), (1.0, 3.0), (3.0, 7.0), (2.0, 20.0)];
         assert_eq!(class_means(sized.clone(), 3), [2.0, 15.0, 6.0]);
         assert!(class_means(vec![(1.0, 4.0)], 2)[0].is_nan());
-    }
-
-    #[test]
-    fn exact_quantiles_by_mass() {
-        let places = vec![(3.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
-        assert_eq!(quantile(places.clone(), 0.0), 1.0);
-        assert_eq!(quantile(places.clone(), 0.5), 2.0);
-        assert_eq!(quantile(places.clone(), 0.75), 3.0);
-        assert_eq!(quantile(places, 1.0), 3.0);
-        assert!(quantile(Vec::new(), 0.5).is_nan());
     }
 }

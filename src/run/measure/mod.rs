@@ -7,7 +7,11 @@ mod crossings;
 pub(super) mod fields;
 pub(super) mod fluid;
 pub(super) mod grains;
+pub(super) mod loads;
+mod moving_mean;
+mod quantile;
 pub(super) mod quantity;
+pub(super) mod rest;
 
 use contacts::Contacts;
 use crossings::Crossings;
@@ -125,13 +129,13 @@ impl Gauge {
             Measure::WindowVelocity { min_m, max_m } => fluid?.window_velocity(*min_m, *max_m),
             Measure::Ledger => fluid?.ledger(),
             Measure::Force { on: Some(on), .. } => grains?.force(on),
-            Measure::Force { solid, on: None } => {
+            Measure::Force { solid, on: None, .. } => {
                 let solid = solid.as_deref()?;
                 let mut row = fluid?.load(solid);
                 row.extend(state.contacts.map_or_else(Vec::new, |contacts| contacts.on(solid)));
                 row
             }
-            Measure::Torque { solid, about_m } => fluid?.torque(solid, *about_m),
+            Measure::Torque { solid, about_m, .. } => fluid?.torque(solid, *about_m),
             Measure::Contacts => grains?.contacts(),
             Measure::Energies => grains?.energies(),
             Measure::Momentum => grains?.momentum(),

@@ -2,8 +2,8 @@
 
 use crate::scene::checker::Checker;
 use crate::scene::{
-    Arrested, ClampLimits, Collision, KeyRule, Numerics, PrecisionChoice, SceneError, SceneProblem, Stop,
-    YieldChoice,
+    Arrested, ClampLimits, Collision, KeyRule, Numerics, PrecisionChoice, RestMeasure, SceneError,
+    SceneProblem, Stop, YieldChoice,
 };
 
 const STEP_KEYS: &[&str] = &["time_step_s", "relaxation_time", "target_mach"];
@@ -167,5 +167,24 @@ pub(in crate::scene) fn check_arrested(
         at.positive(&path(key), found, "s", "it is an interval", "a hundredth of `stop.end_time_s`")?;
         at.ensure(found <= end, &path(key), || SceneProblem::BeyondEnd { found, end })?;
     }
-    Ok(())
+    match arrested.measure {
+        RestMeasure::MassPercentile { share } => {
+            slow_share(at, &path("measure.mass_percentile.share"), share)
+        }
+        RestMeasure::Rms | RestMeasure::Largest => Ok(()),
+    }
+}
+
+/// Share of the mass that has to be slow.
+fn slow_share(at: &Checker, path: &str, found: f64) -> Result<(), SceneError> {
+    let (low, high) = (0.5, 1.0);
+    at.ensure(found >= low && found < high, path, || SceneProblem::OutOfRange {
+        found,
+        unit: "",
+        low,
+        high,
+        because: "1 excluded: that is `largest`, which one cell of spray keeps up; with half of the mass moving nothing is \
+                  at rest",
+        way_out: "leave it out for 0.99",
+    })
 }

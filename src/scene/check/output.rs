@@ -27,6 +27,7 @@ fn place(scene: &Scene, path: &'static str, subject: Subject) -> Place {
     Place {
         path,
         subject,
+        end_s: scene.stop.end_time_s,
         size_m: scene.domain.size_m,
         fluid: true,
         surface: scene.fluid.initial.is_some(),

@@ -12,6 +12,8 @@ pub(in crate::scene) struct Place {
     pub path: &'static str,
     /// What the words mean that fluid and grains share.
     pub subject: Subject,
+    /// End time, s.
+    pub end_s: f64,
     /// Edge lengths of the box, m.
     pub size_m: [f64; 3],
     /// Whether there is a fluid.
@@ -83,10 +85,7 @@ fn measure(at: &Checker, path: &str, measure: &Measure, place: &Place) -> Result
         Measure::WindowVelocity { min_m, max_m } => {
             window(at, &format!("{path}.window_velocity"), *min_m, *max_m, size)
         }
-        Measure::Force { solid, on } => {
-            force(at, &format!("{path}.force"), solid.as_deref(), on.as_ref(), place)
-        }
-        Measure::Torque { solid, .. } => solid_in_fluid(at, &format!("{path}.torque.solid"), solid, place),
+        Measure::Force { .. } | Measure::Torque { .. } => load(at, path, measure, place),
         Measure::Grain { set, .. } => known_set("grain", set),
         Measure::FluidForce { set, .. } => known_set("fluid_force", set),
         Measure::Submergence { set, .. } => known_set("submergence", set),
@@ -171,6 +170,21 @@ fn window(
     at.reaches_box(path, &Shape::Box { min_m, max_m }, size)
 }
 
+/// A load is on something that is there, and its moving mean within the run.
+fn load(at: &Checker, path: &str, measure: &Measure, place: &Place) -> Result<(), SceneError> {
+    match measure {
+        Measure::Force { solid, on, window_s, .. } => {
+            moving_mean(at, &format!("{path}.force.window_s"), *window_s, place)?;
+            force(at, &format!("{path}.force"), solid.as_deref(), on.as_ref(), place)
+        }
+        Measure::Torque { solid, window_s, .. } => {
+            moving_mean(at, &format!("{path}.torque.window_s"), *window_s, place)?;
+            solid_in_fluid(at, &format!("{path}.torque.solid"), solid, place)
+        }
+        _ => Ok(()),
+    }
+}
+
 /// A force is on a solid in the fluid or on what grains push.
 fn force(
     at: &Checker,
@@ -195,6 +209,19 @@ fn force(
             at.fail(path, SceneProblem::KeyCount { found, of: KEYS, rule: KeyRule::ExactlyOne, because })
         }
     }
+}
+
+/// Length of a moving mean within the run.
+fn moving_mean(at: &Checker, path: &str, window_s: Option<f64>, place: &Place) -> Result<(), SceneError> {
+    let Some(found) = window_s else { return Ok(()) };
+    at.positive(
+        path,
+        found,
+        "s",
+        "it is an interval",
+        "leave it out for the time between rows of the series",
+    )?;
+    at.ensure(found <= place.end_s, path, || SceneProblem::BeyondEnd { found, end: place.end_s })
 }
 
 fn solid_in_fluid(at: &Checker, path: &str, solid: &str, place: &Place) -> Result<(), SceneError> {

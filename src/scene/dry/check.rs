@@ -281,6 +281,7 @@ fn output(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
     let place = Place {
         path: "output.probes",
         subject: Subject::Grains,
+        end_s: scene.stop.end_time_s,
         size_m: scene.domain.size_m,
         fluid: false,
         surface: false,
