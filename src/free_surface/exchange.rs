@@ -3,15 +3,16 @@
 use super::Kind;
 use crate::lane::Lane;
 use crate::lattice::equilibrium::dot;
-use crate::lattice::{W, opposite};
+use crate::lattice::{C, W, opposite};
 
 /// A: the wetted share of a link from an interface cell.
 ///
-/// 1 to liquid, ½(φ + φ′) to interface, 0 to gas and solid. Symmetric in its two cells, so that what
+/// 1 to liquid, ½(c + c′) to interface, 0 to gas and solid. Symmetric in its two cells, so that what
 /// one gains is what the other loses, to the last bit.
 ///
 /// # Arguments
-/// `neighbour`: kind of the cell at the other end. `fill`, `neighbour_fill`: φ of the two cells, 0 to 1.
+/// `neighbour`: kind of the cell at the other end. `share`, `neighbour_share`: c of the two cells ([`carried`]); φ where the
+/// surface does not matter.
 /// # Source
 /// 000 Eq 12, 001 Eq 11, 004 Eq 3.31; docs/errata.md 20 (fill, not mass), 21 (sum, not difference).
 /// # Verified by
@@ -19,12 +20,23 @@ use crate::lattice::{W, opposite};
 /// `exchange-of-differences`.
 #[inline(always)]
 #[must_use]
-pub fn wetted_share(neighbour: Kind, fill: f64, neighbour_fill: f64) -> f64 {
+pub fn wetted_share(neighbour: Kind, share: f64, neighbour_share: f64) -> f64 {
     match neighbour {
         Kind::Liquid => 1.0,
-        Kind::Interface => 0.5 * (fill + neighbour_fill),
+        Kind::Interface => mean_share(share, neighbour_share),
         Kind::Gas | Kind::Solid => 0.0,
     }
+}
+
+/// A of a link between two interface cells: ½(c + c′).
+///
+/// # Source
+/// As [`wetted_share`].
+/// # Verified by
+/// As [`wetted_share`].
+#[inline(always)]
+pub(crate) fn mean_share<L: Lane>(own: L, other: L) -> L {
+    L::splat(0.5) * (own + other)
 }
 
 /// Stands for φ of liquid in [`share_with`].
@@ -41,9 +53,48 @@ pub(crate) const GAS: f64 = -1.0;
 /// Test `exact_share_of_every_kind`.
 #[inline(always)]
 pub(crate) fn share_with<L: Lane>(fill: L, neighbour: L) -> L {
-    let partly = L::splat(0.5) * (fill + neighbour);
+    let partly = mean_share(fill, neighbour);
     let wet = L::select(L::one().less(neighbour), L::one(), partly);
     L::select(neighbour.less(L::zero()), L::zero(), wet)
+}
+
+/// c of an interface cell: the share A of a link between two of them is ½(c + c′).
+///
+/// Links to liquid carry mass in full and those to gas none, whatever φ; with c the links in between carry what is left, so
+/// that a surface that moves along itself with u carries φu:
+/// c = φ + [φ G − (1 − φ) D]/L, with G, D, L the sums of t_i = 3 w_i [c_i² − (c_i·n̂)²] over links to gas, liquid and
+/// interface. Within −¼ to 5/4, which a level surface does not leave.
+///
+/// # Arguments
+/// `fill`: φ. `gas`, `liquid`, `level`: G, D, L.
+/// # Source
+/// docs/method.md \[F1\], ours.
+/// # Verified by
+/// Test `exact_share_of_a_level_surface`; claims `film-wave-*`.
+#[inline(always)]
+#[must_use]
+pub(crate) fn carried<L: Lane>(fill: L, gas: L, liquid: L, level: L) -> L {
+    let some = L::zero().less(level);
+    let safe = L::select(some, level, L::one());
+    let raw = fill + (fill * gas - (L::one() - fill) * liquid) / safe;
+    let bounded = L::larger(L::smaller(raw, L::splat(1.25)), L::splat(-0.25));
+    L::select(some, bounded, fill)
+}
+
+/// t_i = 3 w_i [c_i² − (c_i·n)²/n²]: how much of a flow along the surface a link carries.
+///
+/// # Arguments
+/// `normal`: of the surface, any length. `square`: n².
+/// # Source
+/// docs/method.md \[F1\], ours.
+/// # Verified by
+/// As [`carried`].
+#[inline(always)]
+#[must_use]
+pub(crate) fn tangential_weight<L: Lane>(i: usize, normal: &[L; 3], square: L) -> L {
+    let links: i32 = C[i].iter().map(|c| c * c).sum();
+    let cn = dot(i, normal);
+    L::splat(3.0 * W[i]) * (L::splat(f64::from(links)) - cn * cn / square)
 }
 
 /// Δm of one link: A (f_ī*(x + c_i) − f_i*(x)).
@@ -84,6 +135,7 @@ pub(crate) fn gas_link<L: Lane>(leaving: L, i: usize, u: &[L; 3]) -> L {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lattice::Q;
 
     #[test]
     fn exact_share_of_every_kind() {
@@ -94,5 +146,29 @@ mod tests {
                 assert_eq!(share_with(fill, other), wetted_share(Kind::Interface, fill, other));
             }
         }
+    }
+    #[test]
+    fn exact_share_of_a_level_surface() {
+        // Gas above, liquid below: t of a link with a component along the surface. All carry φ of 2, one for each direction
+        // along the surface; a dozen roundings of numbers below 2.
+        for normal in [[0.0, 0.0, 0.3], [0.2, 0.0, 0.2], [0.1, 0.2, -0.2]] {
+            let square = normal.iter().map(|n| n * n).sum();
+            let up = |i: usize| dot(i, &normal);
+            let total: f64 = (1..Q).map(|i| tangential_weight(i, &normal, square)).sum();
+            assert!((total - 2.0).abs() < 1e-14, "{normal:?}");
+            let sum = |side: fn(f64) -> bool| -> f64 {
+                (1..Q).filter(|&i| side(up(i))).map(|i| tangential_weight(i, &normal, square)).sum()
+            };
+            let (gas, liquid, level) = (sum(|c| c > 1e-9), sum(|c| c < -1e-9), sum(|c| c.abs() < 1e-9));
+            for fill in [0.2, 0.5, 0.8] {
+                let share = carried(fill, gas, liquid, level);
+                if share > -0.25 && share < 1.25 {
+                    assert!((liquid + level * share - 2.0 * fill).abs() < 1e-14, "{normal:?} {fill}");
+                }
+            }
+        }
+        let share = carried(0.3, 1.0 / 3.0, 1.0 / 3.0, 4.0 / 3.0);
+        assert!((share - (1.5 * 0.3 - 0.25)).abs() < 1e-15, "{share}");
+        assert_eq!(carried(0.3, 1.0, 1.0, 0.0), 0.3);
     }
 }

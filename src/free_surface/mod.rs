@@ -1,4 +1,4 @@
-//! The mass-tracking free surface \[F1\]–\[F6\]: one file per group of equations.
+//! The mass-tracking free surface \[F1\]–\[F6\], \[F8\], \[F9\]: one file per group of equations.
 //!
 //! Cells are gas (not computed), liquid (full) or interface (partly full, with a mass of their own). A
 //! liquid cell never touches gas. The passes over arrays are in `solver/plain/surface`; here is what
@@ -14,7 +14,8 @@ pub mod hydrostatic;
 pub mod ledger;
 pub(crate) mod marks;
 pub mod normal;
-pub mod settle;
+pub(crate) mod shares;
+pub mod voids;
 
 /// What a cell is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -238,6 +238,9 @@ pub struct SurfaceSummary {
     /// Mass that has no cell at the moment, kg; part of `mass_kg`.
     #[serde(with = "number")]
     pub parked_kg: f64,
+    /// Volume missing in partly filled cells without gas neighbour, m³.
+    #[serde(default, with = "number")]
+    pub voids_m3: f64,
     /// (mass + outflow − from grains − initial)/initial.
     #[serde(with = "number")]
     pub mass_residual: f64,

@@ -7,6 +7,21 @@ use crate::lattice::C;
 use crate::solver::loads::{LoadSums, Pull};
 use crate::solver::run::{Ledger, Load};
 
+/// What a run holds now.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contents {
+    /// Mass, with `parked`.
+    pub mass: f64,
+    /// Σ c f.
+    pub momentum: [f64; 3],
+    /// Mass without a cell.
+    pub parked: f64,
+    /// Volume missing below the surface, cells.
+    pub voids: f64,
+    /// Liquid and interface cells.
+    pub cells: [u64; 2],
+}
+
 /// Everything that was brought in or taken out so far.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Books {
@@ -229,7 +244,8 @@ impl Books {
 
     /// The ledger from the sums now.
     #[must_use]
-    pub fn ledger(&self, mass: f64, momentum: [f64; 3], parked: f64, cells: [u64; 2]) -> Ledger {
+    pub fn ledger(&self, now: &Contents) -> Ledger {
+        let Contents { mass, momentum, parked, voids, cells } = *now;
         let (outflow, from_walls) = (self.outflow.value(), self.from_walls.value());
         let mass_from_grains = self.mass_from_grains.value();
         let parts = [
@@ -254,6 +270,7 @@ impl Books {
             initial_mass: self.initial_mass,
             mass,
             parked,
+            voids,
             outflow,
             from_walls,
             mass_residual: (((mass - self.initial_mass) + outflow) - mass_from_grains) / self.initial_mass,

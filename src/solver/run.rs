@@ -109,6 +109,8 @@ pub struct Ledger {
     pub initial_mass: f64,
     /// Mass now, with `parked`.
     pub mass: f64,
+    /// Volume missing in partly filled cells without gas neighbour \[F8\], cells.
+    pub voids: f64,
     /// Excess that has no receiver at the moment.
     pub parked: f64,
     /// Mass that left through open faces.

@@ -42,6 +42,7 @@ fn surface_summary(plan: &Plan, ledger: &Ledger) -> SurfaceSummary {
         outflow_kg: ledger.outflow * mass,
         from_walls_kg: ledger.from_walls * mass,
         parked_kg: ledger.parked * mass,
+        voids_m3: ledger.voids * (units.dx_m * units.dx_m * units.dx_m),
         mass_residual: ledger.mass_residual,
         momentum_n_s: vector(ledger.momentum),
         from_force_n_s: vector(ledger.from_force),

@@ -228,11 +228,14 @@ impl Fluid<'_> {
     pub fn ledger(&self) -> Vec<Quantity> {
         let (ledger, mass_unit) = (self.run.ledger().unwrap_or_default(), self.mass_unit());
         let momentum_unit = self.frame.units.velocity_unit();
+        let dx = self.frame.units.dx_m;
+        let volume_unit = dx * dx * dx;
         several([
             ("mass", "kg", ledger.mass * mass_unit),
             ("mass_residual", "-", ledger.mass_residual),
             ("outflow", "kg", ledger.outflow * mass_unit),
             ("parked", "kg", ledger.parked * mass_unit),
+            ("voids", "m^3", ledger.voids * volume_unit),
             ("momentum_residual", "N s", ledger.momentum_residual * mass_unit * momentum_unit),
             ("conversions", "-", ledger.conversions as f64),
         ])

@@ -6,6 +6,7 @@ use super::run::FastRun;
 use super::surface::record::InterfaceCell;
 use crate::coupling::{Host, Immersed, Place, Uncovered, body_force};
 use crate::free_surface::Kind;
+use crate::free_surface::conversion::touch;
 use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
@@ -108,11 +109,12 @@ impl<P: Physics, E: Element> Host for FastRun<P, E> {
         };
         let record = to.kind.is_fluid().then_some(InterfaceCell {
             local: local as u16,
-            touches: 0,
+            touches: touch::GAS,
             f: to.populations,
             rho: m.rho,
             velocity: m.u,
             mass: to.mass,
+            dry: [0.0; 3],
             acceleration: [0.0; 3],
         });
         self.change(cell, to.kind, Some(fill), record);

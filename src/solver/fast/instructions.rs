@@ -2,6 +2,8 @@
 
 use super::kernel::pass;
 use super::rim::{Alike, Columns, WallTask, correct_group};
+use super::sources::Sources;
+use super::surface::carry::carry_packs;
 use super::surface::packed::{Near, stream_block};
 use super::surface::record::InterfaceCell;
 use super::surface::streaming::Streaming;
@@ -84,6 +86,9 @@ pub(crate) type Collide<P, E> = fn(Chosen, &Task<P, E>, &mut Own<E>) -> Outcome;
 /// An exchange of one block: all its interface cells.
 pub(crate) type Exchange<P, E> = fn(Chosen, &Streaming<P, E>, &Near<E>, &mut [InterfaceCell], &mut Entries);
 
+/// Shares of packs of one block.
+pub(crate) type Carry = fn(Chosen, &[&[f64]; 27], &[Sources], &[usize], &mut [f64]);
+
 /// The passes over one block of a run, in its precision.
 #[derive(Clone, Copy)]
 pub(crate) struct Passes<P, E> {
@@ -91,6 +96,8 @@ pub(crate) struct Passes<P, E> {
     pub collide: Collide<P, E>,
     /// Streams the interface cells: see [`stream_block`].
     pub exchange: Exchange<P, E>,
+    /// Shares of links between interface cells: see [`carry_packs`].
+    pub carry: Carry,
 }
 
 /// A function of registers, compiled for every instruction set: `$run` with portable registers, then those
@@ -189,16 +196,35 @@ fn exchange_stored<P: Physics>(
     );
 }
 
+/// Shares in blocks of populations in f64.
+fn carry_double(chosen: Chosen, fill: &[&[f64]; 27], sources: &[Sources], packs: &[usize], to: &mut [f64]) {
+    compiled!(
+        [](fill: &[&[f64]; 27], sources: &[Sources], packs: &[usize], to: &mut [f64]),
+        chosen, carry_packs, super::registers::Double<2>, Sse2 Avx2 Avx512
+    );
+}
+
+/// Shares in blocks of populations in f32; like all that is done with interface cells, in f64.
+fn carry_stored(chosen: Chosen, fill: &[&[f64]; 27], sources: &[Sources], packs: &[usize], to: &mut [f64]) {
+    compiled!(
+        [](fill: &[&[f64]; 27], sources: &[Sources], packs: &[usize], to: &mut [f64]),
+        chosen, carry_packs, super::registers::Stored<2>, Sse2Stored Avx2Stored Avx512Stored
+    );
+}
+
 impl<P: Physics> Passes<P, f64> {
     /// Everything in f64.
-    pub(crate) const DOUBLE: Self = Self { collide: collide_double, exchange: exchange_double };
+    pub(crate) const DOUBLE: Self =
+        Self { collide: collide_double, exchange: exchange_double, carry: carry_double };
 }
 
 impl<P: Physics> Passes<P, f32> {
     /// Stored and collided in f32.
-    pub(crate) const SINGLE: Self = Self { collide: collide_single, exchange: exchange_stored };
+    pub(crate) const SINGLE: Self =
+        Self { collide: collide_single, exchange: exchange_stored, carry: carry_stored };
     /// Stored in f32, collided in f64.
-    pub(crate) const STORED: Self = Self { collide: collide_stored, exchange: exchange_stored };
+    pub(crate) const STORED: Self =
+        Self { collide: collide_stored, exchange: exchange_stored, carry: carry_stored };
 }
 
 /// Wall corrections of cells side by side, see [`correct_group`]; in f64 whatever is stored.

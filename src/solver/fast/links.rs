@@ -7,6 +7,7 @@ use super::rim::Rim;
 use super::task::Task;
 pub(crate) use super::task::after;
 use crate::free_surface::exchange::gas_link;
+use crate::lane::Lane;
 use crate::lattice::equilibrium::dot;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, W, opposite};
@@ -78,7 +79,7 @@ pub(crate) fn stored<E: Element>(x: f64) -> f64 {
 }
 
 /// What an open face sends back, as it is stored: as gas where fluid leaves, as a wall at rest where it would
-/// come in.
+/// come in, over the whole face or over this link.
 #[inline]
 pub(crate) fn open_link<P: Physics, E: Element>(
     task: &Task<P, E>,
@@ -89,5 +90,5 @@ pub(crate) fn open_link<P: Physics, E: Element>(
     let out = opposite(usize::from(link.direction));
     let leaving = task.old[number].get()[index::<E>(usize::from(link.local), out)].to_f64();
     let u = rim.get(usize::from(link.rim)).map_or([0.0; 3], |kept| kept.velocity);
-    if dot(out, &u) > 0.0 { stored::<E>(gas_link(leaving, out, &u)) } else { leaving }
+    if dot(out, &u) > 0.0 { f64::smaller(stored::<E>(gas_link(leaving, out, &u)), leaving) } else { leaving }
 }

@@ -3,6 +3,7 @@
 use super::cut_cells::cut_bytes;
 use super::layout::Layout;
 use super::memory as own;
+use super::surface::flow::NUMBERS;
 use crate::boundary::cut::cut_count;
 use crate::lattice::{C, Q};
 use crate::setup::{Face, Setup, SurfaceForce, WallRule, YieldTreatment};
@@ -12,6 +13,8 @@ use crate::solver::boundary_cells::{neighbour, touches_boundary};
 const LAG: u64 = size_of::<f64>() as u64;
 /// Kind and fill of a cell below a free surface.
 const SURFACE: u64 = 1 + size_of::<f64>() as u64;
+/// Density and velocity of a cell in blocks that hold interface cells.
+const FLOW: u64 = (NUMBERS * size_of::<f64>()) as u64;
 /// Velocities of two collisions and the acceleration.
 const INERTIA: u64 = 3 * size_of::<[f64; 3]>() as u64;
 
@@ -24,7 +27,7 @@ pub(crate) fn bytes(setup: &Setup) -> u64 {
     let held = held_blocks(setup, &layout);
     let count = held.iter().filter(|&&held| held).count() as u64;
     let cells = count * layout.block_cells() as u64;
-    let (rim, interface) = special_cells(setup, &layout, &held);
+    let Special { rim, interface, blocks } = special_cells(setup, &layout, &held);
     let mut per_cell = 2 * Q as u64 * setup.precision.bytes();
     if setup.fluids.len() > 1 {
         per_cell += 1;
@@ -48,6 +51,7 @@ pub(crate) fn bytes(setup: &Setup) -> u64 {
         + count * own::block_bytes(&layout, line, setup.free_surface.is_some())
         + rim * per_rim
         + interface * own::INTERFACE_BYTES
+        + blocks * layout.block_cells() as u64 * FLOW
         + table
         + cut_bytes(cut_count(setup))
 }
@@ -78,10 +82,19 @@ fn holds_fluid(setup: &Setup, cell: usize) -> bool {
         && surface.is_none_or(|surface| surface.fill.get(cell).is_some_and(|&fill| fill > 0.0))
 }
 
-/// Cells of held blocks with an irregular link, and interface cells: partly filled ones, and full ones with
-/// an empty cell next to them along an axis.
-fn special_cells(setup: &Setup, layout: &Layout, held: &[bool]) -> (u64, u64) {
+/// Cells of held blocks that need more than populations.
+struct Special {
+    /// Cells with an irregular link.
+    rim: u64,
+    /// Interface cells: partly filled ones, and full ones with an empty cell next to them along an axis.
+    interface: u64,
+    /// Blocks with interface cells.
+    blocks: u64,
+}
+
+fn special_cells(setup: &Setup, layout: &Layout, held: &[bool]) -> Special {
     let (mut rim, mut interface) = (0, 0);
+    let mut with_surface = vec![false; layout.places()];
     for cell in 0..setup.cells() {
         let at = setup.coordinates(cell);
         if setup.is_solid(cell) || !held[layout.find(at).0] {
@@ -100,10 +113,13 @@ fn special_cells(setup: &Setup, layout: &Layout, held: &[bool]) -> (u64, u64) {
                 near.is_some_and(|near| !setup.is_solid(near) && surface.fill[near] <= 0.0)
             };
             let fill = surface.fill[cell];
-            interface += u64::from(fill > 0.0 && (fill < 1.0 || axes.iter().any(dry)));
+            let is_interface = fill > 0.0 && (fill < 1.0 || axes.iter().any(dry));
+            interface += u64::from(is_interface);
+            with_surface[layout.find(at).0] |= is_interface;
         }
     }
-    (rim, interface)
+    let blocks = with_surface.into_iter().filter(|&any| any).count() as u64;
+    Special { rim, interface, blocks }
 }
 
 #[cfg(test)]

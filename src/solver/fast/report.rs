@@ -85,7 +85,8 @@ impl<P: Physics, E: Element> Observed for FastRun<P, E> {
     fn hash_memory(&self, (_, number, local): Self::At, hasher: &mut Hasher) {
         let inertia = self.surface.as_ref().and_then(|surface| surface.inertia.as_ref());
         let acceleration = inertia.map(|inertia| inertia.acceleration_of(number, local));
-        for number in acceleration.iter().flatten().chain(self.lag[number].get(local)) {
+        let dry = self.surface.as_ref().map(|surface| surface.dry_at(number, local));
+        for number in acceleration.iter().chain(&dry).flatten().chain(self.lag[number].get(local)) {
             hasher.number(*number);
         }
     }

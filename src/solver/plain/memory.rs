@@ -24,7 +24,8 @@ pub(crate) const CUT_CELL: u64 = cut_cells::CUT_CELL as u64;
 pub(crate) const CUT_LINK: u64 = size_of::<CutLink>() as u64 + NUMBER;
 /// Of a cell: ω⁺ of the previous step.
 pub(crate) const LAG: u64 = NUMBER;
-/// Of a cell below a free surface or among grains: kind, touched kinds, mass, fill now and at time 0, and velocity.
-pub(crate) const SURFACE: u64 = 1 + 1 + NUMBER + NUMBER + NUMBER + VECTOR;
+/// Of a cell below a free surface or among grains: kind, touched kinds, mass, fill now and at time 0, velocity, and what
+/// interface cells take back.
+pub(crate) const SURFACE: u64 = 1 + 1 + NUMBER + NUMBER + NUMBER + VECTOR + VECTOR;
 /// Of a cell below a free surface: smoothed acceleration and the velocity it is made from.
 pub(crate) const INERTIA: u64 = VECTOR + VECTOR;

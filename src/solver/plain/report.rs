@@ -61,8 +61,10 @@ impl<P: Physics, S: SurfacePhysics> Observed for PlainRun<P, S> {
         }
     }
     fn hash_memory(&self, at: usize, hasher: &mut Hasher) {
-        let acceleration = self.surface.as_ref().and_then(|surface| surface.acceleration.get(at));
-        for number in acceleration.into_iter().flatten().chain(self.previous_omega.get(at)) {
+        let surface = self.surface.as_ref();
+        let acceleration = surface.and_then(|surface| surface.acceleration.get(at));
+        let dry = surface.map(|surface| surface.dry[at]);
+        for number in acceleration.into_iter().chain(&dry).flatten().chain(self.previous_omega.get(at)) {
             hasher.number(*number);
         }
     }

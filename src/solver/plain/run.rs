@@ -134,8 +134,10 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         self.exchange_with_grains();
         self.exchange_mass();
         self.stream_pass();
+        self.dry_pass();
         self.book_links();
         self.book_loads();
+        self.close_voids();
         self.convert(&force);
         self.move_grains()?;
         self.step += 1;

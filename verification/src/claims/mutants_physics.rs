@@ -54,6 +54,12 @@ pub enum Mistake {
     ReconstructionAtNeighbour,
     /// 000 Eq 11, 004 Eq 3.30 without time level: populations before collision.
     ExchangeBeforeCollision,
+    /// 000 Eq 12 as corrected: the mean of the fills, with no regard to links to gas and liquid.
+    ExchangeOfMeanFills,
+    /// \[F9\] left out.
+    LateralStressInFull,
+    /// \[F8\] left out.
+    VoidsKept,
     /// 000: excess without a rule.
     ExcessDropped,
     /// The force source without 1 − ω/2.
@@ -224,6 +230,7 @@ impl SurfacePhysics for WrongSurface {
                 let mass = |cell: usize| cells.fill[cell] * (1.0 + density_excess(&cells.after[cell]));
                 0.5 * (mass(cell) + mass(from))
             }
+            Mistake::ExchangeOfMeanFills if between => 0.5 * (cells.fill[from] + cells.fill[cell]),
             Mistake::ExchangeOfDifferences if between => 0.5 * (cells.fill[from] - cells.fill[cell]),
             Mistake::ExchangeBeforeCollision => {
                 let share = exchange::wetted_share(cells.kinds[from], cells.fill[cell], cells.fill[from]);
@@ -240,6 +247,18 @@ impl SurfacePhysics for WrongSurface {
             _ => cell,
         };
         Design.gas_link(after, behind, out, u)
+    }
+
+    fn void_sink(&self, fill: f64, d_rho: f64) -> f64 {
+        if self.mistake == Mistake::VoidsKept { 0.0 } else { Design.void_sink(fill, d_rho) }
+    }
+
+    fn dry_share(&self, share: f64) -> f64 {
+        if self.mistake == Mistake::LateralStressInFull { 0.0 } else { share }
+    }
+
+    fn dry_share_at_wall(&self, share: f64) -> f64 {
+        self.dry_share(share)
     }
 
     fn excess(&self, mass: f64, full: f64) -> f64 {

@@ -12,6 +12,7 @@ pub mod dam_break;
 pub mod discrete_modes;
 pub mod duct;
 pub mod film;
+pub mod film_wave;
 pub mod flow_curve;
 pub mod grains;
 pub mod layered_channel;

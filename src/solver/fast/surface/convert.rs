@@ -168,8 +168,16 @@ impl<P: Physics, E: Element> Cells for FastRun<P, E> {
         let f = self.populations(cell);
         let local = self.find(cell).map_or(0, |(_, local)| local as u16);
         let rho = 1.0 + density_excess(&f);
-        let record =
-            InterfaceCell { local, touches: 0, f, rho, velocity: [0.0; 3], mass, acceleration: [0.0; 3] };
+        let record = InterfaceCell {
+            local,
+            touches: touch::GAS,
+            f,
+            rho,
+            velocity: [0.0; 3],
+            mass,
+            dry: [0.0; 3],
+            acceleration: [0.0; 3],
+        };
         self.change(cell, Kind::Interface, None, Some(record));
     }
     fn wet(&mut self, cell: usize, populations: &[f64; Q]) {
@@ -182,11 +190,12 @@ impl<P: Physics, E: Element> Cells for FastRun<P, E> {
         let rho = 1.0 + density_excess(&f);
         let record = InterfaceCell {
             local: local as u16,
-            touches: 0,
+            touches: touch::GAS,
             f,
             rho,
             velocity,
             mass: 0.0,
+            dry: [0.0; 3],
             acceleration: [0.0; 3],
         };
         self.change(cell, Kind::Interface, None, Some(record));

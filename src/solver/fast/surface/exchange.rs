@@ -1,8 +1,13 @@
-//! Streaming and mass exchange of all interface cells \[F1\] \[F2\].
+//! Streaming and mass exchange of all interface cells \[F1\] \[F2\] \[F8\].
 
 use super::packed::Near;
+use super::record::InterfaceCell;
+use super::state::Surface;
 use super::streaming::Streaming;
+use crate::free_surface::conversion::touch;
 use crate::free_surface::ledger::VectorSum;
+use crate::free_surface::voids;
+use crate::lattice::moments::density_excess;
 use crate::solver::books::Entries;
 use crate::solver::fast::block::numbers_around;
 use crate::solver::fast::element::Element;
@@ -44,8 +49,10 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                     NONE => surface.nothing.as_slice(),
                     n => surface.fill[n as usize].as_slice(),
                 });
-                let near = Near { populations: task.around(number), fill };
+                let flow = std::array::from_fn(|k| around.map(|n| surface.flow_of(n, k)));
+                let near = Near { populations: task.around(number), fill, flow };
                 (self.passes.exchange)(self.chosen, &streaming, &near, list, &mut brought.entries);
+                list.iter_mut().for_each(|cell| close_void(cell, near.fill[13]));
             }
             streaming.book_liquid(returned, &mut brought.entries);
             brought
@@ -60,5 +67,25 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         }
         surface.books.from_force.add_times(force, surface.counts[0]);
         surface.books.enter(&entries, &mut surface.loads);
+    }
+}
+
+/// A partly filled cell without gas neighbour gives up density \[F8\]; `fill`: φ of the block.
+fn close_void(cell: &mut InterfaceCell, fill: &[f64]) {
+    if cell.touches & touch::GAS == 0 {
+        let density = voids::sink(fill[usize::from(cell.local)], density_excess(&cell.f));
+        voids::give_up(&mut cell.f, density);
+        cell.rho = 1.0 + density_excess(&cell.f);
+    }
+}
+
+impl Surface {
+    /// One of the numbers ([`super::flow`]) of every cell of a block; any numbers where it has no interface cells.
+    fn flow_of(&self, number: u32, k: usize) -> &[f64] {
+        let cells = self.nothing.len();
+        match number {
+            NONE => &self.nothing,
+            n => self.flow[n as usize].get(k * cells..(k + 1) * cells).unwrap_or(&self.nothing),
+        }
     }
 }

@@ -6,8 +6,10 @@
 //! before.
 
 mod accelerate;
+pub(crate) mod carry;
 mod convert;
 mod exchange;
+pub(crate) mod flow;
 pub(crate) mod inertia;
 pub(crate) mod packed;
 mod pass;

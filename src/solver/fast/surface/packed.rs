@@ -1,10 +1,12 @@
 //! Streaming and mass exchange of interface cells side by side \[F1\] \[F2\]: the same as
 //! `Streaming::stream` for cells whose links are all the grid's.
 
+use super::flow::{CARRIED, NUMBERS};
 use super::record::InterfaceCell;
 use super::streaming::Streaming;
 use crate::free_surface::conversion::touch;
-use crate::free_surface::exchange::{gas_link, link_mass, share_with};
+use crate::free_surface::exchange::{gas_link, link_mass, mean_share, share_with};
+use crate::free_surface::shares::{dry_share, even, taken_back, viscous};
 use crate::lane::Lane;
 use crate::lattice::moments::density_excess;
 use crate::lattice::unroll::{directions, three};
@@ -22,6 +24,8 @@ pub(crate) struct Near<'a, E> {
     pub populations: Around<'a, E>,
     /// φ of interface cells, and what stands for the others ([`share_with`]).
     pub fill: [&'a [f64]; 27],
+    /// Numbers of interface cells ([`super::flow`]), any elsewhere.
+    pub flow: [[&'a [f64]; 27]; NUMBERS],
 }
 
 /// Columns of one pack: one number per lane.
@@ -32,6 +36,7 @@ struct Columns {
     rho: [f64; MOST],
     gained: [f64; MOST],
     from_gas: [[f64; MOST]; 3],
+    dry: [[f64; MOST]; 3],
     /// 1 where the cell touches gas.
     gas: [f64; MOST],
     /// 1 where the cell touches liquid.
@@ -46,6 +51,7 @@ impl Columns {
             rho: [0.0; MOST],
             gained: [0.0; MOST],
             from_gas: [[0.0; MOST]; 3],
+            dry: [[0.0; MOST]; 3],
             gas: [0.0; MOST],
             liquid: [0.0; MOST],
         }
@@ -72,7 +78,9 @@ impl Columns {
             |a| R::load_wide(&self.velocity[a][part..]),
         );
         let (mut gas, mut liquid, mut from_gas) = (zero, zero, [zero; 3]);
-        let mut gained = [zero; Q];
+        let d_rho = R::load_wide(&near.flow[0][13][local + part..]);
+        let carried = R::load_wide(&near.flow[CARRIED][13][local + part..]);
+        let (mut gained, mut apart) = ([zero; Q], [zero; Q]);
         let arrived = directions(
             #[inline(always)]
             |i| {
@@ -86,7 +94,17 @@ impl Columns {
                 liquid = <R::Pack as Lane>::select(one.less(other), one, liquid);
                 let back = gas_link(own[out], out, &u);
                 let arrived = <R::Pack as Lane>::select(dry, back, from[i]);
-                let mass = link_mass(share_with(fill, other), from[i], own[out]);
+                let level = <R::Pack as Lane>::not(one.less(other));
+                let level = <R::Pack as Lane>::and(<R::Pack as Lane>::not(dry), level);
+                let mut share = share_with(fill, other);
+                if <R::Pack as Lane>::any(level) {
+                    let number = |k: usize| gather_cells::<R>(&near.flow[k], sources, part, i);
+                    let there = even(i, number(0), &[number(1), number(2), number(3)]);
+                    let brought = viscous(from[i], own[out], there, even(out, d_rho, &u));
+                    apart[i] = <R::Pack as Lane>::select(level, dry_share(fill, other) * brought, zero);
+                    share = <R::Pack as Lane>::select(level, mean_share(carried, number(CARRIED)), share);
+                }
+                let mass = link_mass(share, from[i], own[out]);
                 gained[i] = <R::Pack as Lane>::select(dry, zero, mass);
                 // Arrives with c_i f_i, left with −c_i f_ī.
                 let brought = <R::Pack as Lane>::select(dry, arrived + own[out], zero);
@@ -108,6 +126,10 @@ impl Columns {
         for a in 0..3 {
             R::store_wide(from_gas[a], &mut self.from_gas[a][part..]);
         }
+        let taken = taken_back(&apart, &u);
+        for a in 0..3 {
+            R::store_wide(taken[a], &mut self.dry[a][part..]);
+        }
         R::store_wide(gas, &mut self.gas[part..]);
         R::store_wide(liquid, &mut self.liquid[part..]);
     }
@@ -124,6 +146,7 @@ impl Columns {
             }
             cell.rho = self.rho[lane];
             cell.mass += self.gained[lane];
+            cell.dry = self.dry.map(|column| column[lane]);
             cell.touches = 0;
             if self.gas[lane] != 0.0 {
                 cell.touches |= touch::GAS;

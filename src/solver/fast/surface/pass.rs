@@ -18,6 +18,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             return;
         }
         self.drop_settled();
+        self.spread_flow();
         self.exchange(force);
         self.accelerate();
         self.convert_cells(force);
@@ -62,6 +63,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 }
                 surface.kinds[number] = Vec::new();
                 surface.lanes[number] = Vec::new();
+                surface.flow[number] = Vec::new();
                 self.blocks[number].clear();
                 surface.free.push(number);
             }

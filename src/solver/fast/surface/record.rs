@@ -20,6 +20,8 @@ pub(crate) struct InterfaceCell {
     pub velocity: [f64; 3],
     /// m.
     pub mass: f64,
+    /// What it takes back in the next collision \[F9\].
+    pub dry: [f64; 3],
     /// Mean smoothed acceleration of the liquid neighbours; zero unless the surface force has inertia.
     pub acceleration: [f64; 3],
 }
@@ -51,11 +53,12 @@ pub(crate) struct SurfaceView<'a> {
 }
 
 impl SurfaceView<'_> {
-    /// Body force of an interface cell \[F3\].
+    /// Body force of an interface cell \[F3\] \[F9\].
     #[inline]
     #[must_use]
     pub(crate) fn force_of(&self, number: usize, cell: &InterfaceCell, force: &[f64; 3]) -> [f64; 3] {
         let fill = self.fill[number][usize::from(cell.local)];
-        interface_force(self.rule, force, fill, &cell.acceleration)
+        let weight = interface_force(self.rule, force, fill, &cell.acceleration);
+        std::array::from_fn(|a| weight[a] + cell.dry[a])
     }
 }

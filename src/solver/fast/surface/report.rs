@@ -5,8 +5,10 @@ use super::record::InterfaceCell;
 use super::state::Surface;
 use crate::fingerprint::Hasher;
 use crate::free_surface::Kind;
+use crate::free_surface::conversion::touch;
 use crate::free_surface::ledger::{Sum, VectorSum};
 use crate::lattice::moments::{Moments, density_excess, momentum};
+use crate::solver::books::Contents;
 use crate::solver::fast::element::Element;
 use crate::solver::fast::run::FastRun;
 use crate::solver::physics::Physics;
@@ -45,6 +47,14 @@ impl Surface {
         }
     }
 
+    /// What a cell takes back in the next collision; 0 unless it is interface.
+    pub(crate) fn dry_at(&self, number: usize, local: usize) -> [f64; 3] {
+        match self.kinds[number][local] {
+            Kind::Interface => self.record(number, local).map_or([0.0; 3], |record| record.dry),
+            Kind::Liquid | Kind::Gas | Kind::Solid => [0.0; 3],
+        }
+    }
+
     /// Mass of a fluid cell, as an excess over 1 in liquid, and whole.
     #[must_use]
     pub(crate) fn mass_of(&self, number: usize, local: usize, m: &Moments<f64>) -> (f64, f64) {
@@ -52,6 +62,20 @@ impl Surface {
             Kind::Liquid => (m.d_rho, m.rho),
             Kind::Interface | Kind::Gas | Kind::Solid => (self.mass(number, local), self.mass(number, local)),
         }
+    }
+
+    /// Σ (1 − φ) over interface cells without gas neighbour.
+    fn voids(&self) -> f64 {
+        let mut sum = Sum::default();
+        for (number, list) in self.interface.iter().enumerate() {
+            for cell in list.iter().filter(|cell| cell.touches & touch::GAS == 0) {
+                let local = usize::from(cell.local);
+                if self.kinds[number][local] == Kind::Interface {
+                    sum.add(1.0 - self.fill[number][local]);
+                }
+            }
+        }
+        sum.value()
     }
 
     /// Number, kind and mass of a cell.
@@ -72,12 +96,13 @@ impl Surface {
     pub(crate) fn bytes(&self) -> u64 {
         let kinds: usize = self.kinds.iter().map(Vec::len).sum();
         let fill: usize = self.fill.iter().map(|fill| size_of_val(fill.as_slice())).sum();
+        let flow: usize = self.flow.iter().map(|flow| size_of_val(flow.as_slice())).sum();
         let lanes: usize = self.lanes.iter().map(|lanes| size_of_val(lanes.as_slice())).sum();
         let records: usize =
             self.interface.iter().map(|list| list.capacity() * size_of::<InterfaceCell>()).sum();
         let returned: usize = self.returned.iter().map(|links| size_of_val(links.as_slice())).sum();
         let inertia = self.inertia.as_ref().map_or(0, Inertia::bytes);
-        (kinds + fill + lanes + records + returned) as u64 + inertia
+        (kinds + fill + flow + lanes + records + returned) as u64 + inertia
     }
 }
 
@@ -116,6 +141,12 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     pub(in crate::solver::fast) fn make_ledger(&self) -> Option<Ledger> {
         let surface = self.surface.as_ref()?;
         let (mass, momentum) = self.mass_and_momentum();
-        Some(surface.books.ledger(mass, momentum, surface.parked.values().sum(), surface.counts))
+        Some(surface.books.ledger(&Contents {
+            mass,
+            momentum,
+            parked: surface.parked.values().sum(),
+            voids: surface.voids(),
+            cells: surface.counts,
+        }))
     }
 }

@@ -4,6 +4,7 @@ use super::record::{InterfaceCell, Lanes};
 use super::state::Surface;
 use crate::boundary::links::{Source, resolve};
 use crate::coupling::Immersed;
+use crate::free_surface::conversion::touch;
 use crate::free_surface::exchange::{GAS, LIQUID};
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
@@ -96,6 +97,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         put(&mut surface.fill, number, vec![GAS; cells]);
         put(&mut surface.lanes, number, vec![Lanes::default(); cells / E::PER_LINE]);
         put(&mut surface.interface, number, Vec::new());
+        put(&mut surface.flow, number, Vec::new());
         if let Some(inertia) = &mut surface.inertia {
             inertia.add(number, cells);
         }
@@ -145,11 +147,12 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 let local = local as u16;
                 surface.interface[number].push(InterfaceCell {
                     local,
-                    touches: 0,
+                    touches: touch::GAS,
                     f,
                     rho,
                     velocity,
                     mass,
+                    dry: [0.0; 3],
                     acceleration: [0.0; 3],
                 });
             }

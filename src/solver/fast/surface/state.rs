@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::flow::Flow;
 use super::inertia::Inertia;
 use super::record::{InterfaceCell, Lanes, SurfaceView};
 use crate::free_surface::Kind;
@@ -20,6 +21,8 @@ pub struct Surface {
     /// φ of interface cells, by block and cell; [`LIQUID`](crate::free_surface::exchange::LIQUID) in
     /// liquid, [`GAS`](crate::free_surface::exchange::GAS) elsewhere.
     pub(in crate::solver::fast) fill: Vec<Vec<f64>>,
+    /// Density and velocity of interface cells, by block.
+    pub(in crate::solver::fast) flow: Vec<Flow>,
     /// By block and pack.
     pub(in crate::solver::fast) lanes: Vec<Vec<Lanes>>,
     /// By block, in order of the cells.
@@ -51,6 +54,7 @@ impl Surface {
         Self {
             kinds: Vec::new(),
             fill: Vec::new(),
+            flow: Vec::new(),
             lanes: Vec::new(),
             interface: Vec::new(),
             parked: BTreeMap::new(),
@@ -79,15 +83,18 @@ impl Surface {
         }
     }
 
-    /// Body force of a cell \[F3\]; `None` where it holds no fluid.
+    /// Body force of a cell \[F3\] \[F9\]; `None` where it holds no fluid.
     #[must_use]
     pub(crate) fn force_at(&self, number: usize, local: usize, force: &[f64; 3]) -> Option<[f64; 3]> {
         match self.kinds[number][local] {
             Kind::Interface => {
                 // Without a record at the very start, where nothing has been accelerated yet.
-                let record = self.inertia.as_ref().and_then(|_| self.record(number, local));
-                let acceleration = record.map_or([0.0; 3], |cell| cell.acceleration);
-                Some(interface_force(self.rules.force, force, self.fill[number][local], &acceleration))
+                let record = self.record(number, local);
+                let (acceleration, dry) =
+                    record.map_or(([0.0; 3], [0.0; 3]), |cell| (cell.acceleration, cell.dry));
+                let weight =
+                    interface_force(self.rules.force, force, self.fill[number][local], &acceleration);
+                Some(std::array::from_fn(|a| weight[a] + dry[a]))
             }
             Kind::Liquid => Some(*force),
             Kind::Gas | Kind::Solid => None,

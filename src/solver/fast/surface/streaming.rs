@@ -1,11 +1,14 @@
 //! Streaming and mass exchange of interface cells one by one \[F1\] \[F2\], and what the links bring in \[F5\].
 
+use super::flow::flow_at;
 use super::record::InterfaceCell;
 use super::state::Surface;
 use crate::boundary::links::Source;
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::touch;
-use crate::free_surface::exchange::{gas_link, link_mass, wetted_share};
+use crate::free_surface::exchange::{carried, gas_link, link_mass, tangential_weight, wetted_share};
+use crate::free_surface::normal::outward_beside_walls;
+use crate::free_surface::shares::{dry_share, dry_share_at_wall, even, taken_back, viscous};
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, opposite};
 use crate::solver::books::{CellEntries, Crossing, Entries};
@@ -35,13 +38,16 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
     pub(super) fn stream(&self, cell: &mut InterfaceCell, entries: &mut Entries) {
         let local = usize::from(cell.local);
         let own = after(self.task, self.number, local);
-        let rho = 1.0 + density_excess(&own);
+        let d_rho = density_excess(&own);
+        let rho = 1.0 + d_rho;
         // An interface cell's own φ; that of a liquid neighbour is not used.
         let fill = self.surface.fill[self.number][local];
+        let (.., own_share) = flow_at(&self.surface.flow[self.number], local);
         let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
         let mut arrived = own;
-        let mut gained = [0.0; Q];
+        let (mut gained, mut apart) = ([0.0; Q], [0.0; Q]);
         let mut touches = 0;
+        let mut normal = None;
         let mut booked = CellEntries::default();
         for i in 1..Q {
             let out = opposite(i);
@@ -52,6 +58,10 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                     touches |= touch::WALL;
                     let u = &self.task.velocities[velocity as usize];
                     arrived[i] = wall_link(self.task, self.number, self.rim, link, rho, u, body);
+                    let here = even(out, d_rho, &cell.velocity);
+                    let normal = normal.get_or_insert_with(|| self.outward(local, fill));
+                    apart[i] =
+                        dry_share_at_wall(fill, out, normal) * viscous(arrived[i], own[out], here, here);
                     Source::Wall { velocity: *u, body }
                 }
                 End::Open(link) => {
@@ -76,7 +86,16 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                             touches |= touch::LIQUID;
                         }
                         arrived[i] = self.sent(number, local, direction);
-                        let share = wetted_share(kind, fill, self.surface.fill[number as usize][local]);
+                        let other = self.surface.fill[number as usize][local];
+                        let mut shares = [fill, other];
+                        if kind == Kind::Interface {
+                            let (there, u, carried) = flow_at(&self.surface.flow[number as usize], local);
+                            shares = [own_share, carried];
+                            let ends = [even(direction, there, &u), even(out, d_rho, &cell.velocity)];
+                            apart[i] =
+                                dry_share(fill, other) * viscous(arrived[i], own[out], ends[0], ends[1]);
+                        }
+                        let share = wetted_share(kind, shares[0], shares[1]);
                         gained[i] = link_mass(share, arrived[i], own[out]);
                     }
                     Source::Cell { cell: 0, direction: direction as u8 }
@@ -90,7 +109,53 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         booked.close(entries);
         cell.rho = 1.0 + density_excess(&arrived);
         cell.mass += density_excess(&gained) - self.handed(local, fill, entries);
-        (cell.f, cell.touches) = (arrived, touches);
+        (cell.f, cell.touches, cell.dry) = (arrived, touches, taken_back(&apart, &cell.velocity));
+    }
+
+    /// c of an interface cell \[F1\].
+    pub(super) fn carried(&self, local: usize) -> f64 {
+        let fill = self.surface.fill[self.number][local];
+        let normal = self.outward(local, fill);
+        let square = (normal[0] * normal[0] + normal[1] * normal[1]) + normal[2] * normal[2];
+        if square <= 0.0 {
+            return fill;
+        }
+        let mut sums = [[0.0; Q]; 3];
+        let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
+        for i in 1..Q {
+            let link = links.next_if(|link| usize::from(link.direction) == i);
+            let End::Cell { number, local, .. } = self.end(local, i, link) else { continue };
+            let kind = match self.kind(number, local) {
+                Kind::Gas => 0,
+                Kind::Liquid => 1,
+                Kind::Interface => 2,
+                Kind::Solid => continue,
+            };
+            sums[kind][i] = tangential_weight(i, &normal, square);
+        }
+        let [gas, liquid, level] = sums.map(|sum| density_excess(&sum));
+        carried(fill, gas, liquid, level)
+    }
+
+    /// Normal of the surface at a cell; grains count as the cell itself.
+    fn outward(&self, local: usize, fill: f64) -> [f64; 3] {
+        let mut by_direction = [None; Q];
+        for link in self.block.links_of_cell(local, E::PER_LINE) {
+            by_direction[usize::from(link.direction)] = Some(link);
+        }
+        outward_beside_walls(
+            fill,
+            &std::array::from_fn(|i| match self.end(local, opposite(i), by_direction[opposite(i)]) {
+                End::Cell { number: NONE, .. } => Some(0.0),
+                End::Cell { number, local, .. } => Some(match self.surface.kinds[number as usize][local] {
+                    Kind::Solid => fill,
+                    Kind::Liquid => 1.0,
+                    Kind::Interface => self.surface.fill[number as usize][local],
+                    Kind::Gas => 0.0,
+                }),
+                End::Wall { .. } | End::Open(_) => None,
+            }),
+        )
     }
 
     /// Mass that an interface cell hands along the surfaces of moving solids \[B1\].

@@ -4,10 +4,11 @@ use super::cells::Wet;
 use super::{Surface, SurfacePhysics};
 use crate::boundary::links::Source;
 use crate::free_surface::Kind;
+use crate::free_surface::conversion::touch;
 use crate::free_surface::ledger::{Sum, VectorSum};
 use crate::lattice::moments::{density_excess, momentum};
 use crate::lattice::{Q, opposite};
-use crate::solver::books::{CellEntries, Crossing, Entries};
+use crate::solver::books::{CellEntries, Contents, Crossing, Entries};
 use crate::solver::cell::Cell;
 use crate::solver::loads::arm;
 use crate::solver::physics::Physics;
@@ -130,6 +131,24 @@ impl<S: SurfacePhysics> Surface<S> {
     pub(in crate::solver::plain) fn ledger(&self, f: &[Cell]) -> Ledger {
         let count = |kind: Kind| self.kinds.iter().filter(|&&k| k == kind).count() as u64;
         let cells = [count(Kind::Liquid), count(Kind::Interface)];
-        self.books.ledger(self.total_mass(f), self.total_momentum(f), self.parked.values().sum(), cells)
+        self.books.ledger(&Contents {
+            mass: self.total_mass(f),
+            momentum: self.total_momentum(f),
+            parked: self.parked.values().sum(),
+            voids: self.voids(),
+            cells,
+        })
+    }
+
+    /// Σ (1 − φ) over interface cells without gas neighbour.
+    fn voids(&self) -> f64 {
+        let mut sum = Sum::default();
+        for &cell in &self.special {
+            let cell = cell as usize;
+            if self.kinds[cell] == Kind::Interface && self.touches[cell] & touch::GAS == 0 {
+                sum.add(1.0 - self.fill[cell]);
+            }
+        }
+        sum.value()
     }
 }

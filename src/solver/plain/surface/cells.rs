@@ -5,7 +5,7 @@ use super::{Surface, SurfacePhysics};
 use crate::boundary::hand_over::HandOver;
 use crate::boundary::links::{Links, Source};
 use crate::free_surface::Kind;
-use crate::free_surface::conversion::Cells;
+use crate::free_surface::conversion::{Cells, touch};
 use crate::lattice::Q;
 use crate::lattice::moments::moments;
 use crate::setup::{Setup, SurfaceForce, YieldTreatment};
@@ -40,7 +40,7 @@ impl<P: Physics, S: SurfacePhysics> Wet<'_, P, S> {
         surface.kinds[cell] = kind;
         self.f[cell] = [0.0; Q];
         (surface.mass[cell], surface.fill[cell]) = (0.0, 0.0);
-        surface.velocity[cell] = [0.0; 3];
+        (surface.velocity[cell], surface.dry[cell]) = ([0.0; 3], [0.0; 3]);
     }
 
     /// A covered cell becomes fluid or gas of this mass, with these populations.
@@ -49,6 +49,7 @@ impl<P: Physics, S: SurfacePhysics> Wet<'_, P, S> {
         let surface = &mut *self.surface;
         surface.kinds[cell] = kind;
         self.f[cell] = *populations;
+        surface.touches[cell] = touch::GAS;
         surface.mass[cell] = mass;
         surface.fill[cell] = match kind {
             Kind::Liquid => 1.0,
@@ -91,17 +92,20 @@ impl<P: Physics, S: SurfacePhysics> Cells for Wet<'_, P, S> {
     fn fill_up(&mut self, cell: usize) {
         self.surface.kinds[cell] = Kind::Liquid;
         (self.surface.mass[cell], self.surface.fill[cell]) = (0.0, 1.0);
+        self.surface.dry[cell] = [0.0; 3];
     }
     fn empty(&mut self, cell: usize) {
         self.drain(cell, Kind::Gas);
     }
     fn expose(&mut self, cell: usize, mass: f64) {
         self.surface.kinds[cell] = Kind::Interface;
+        self.surface.touches[cell] = touch::GAS;
         self.surface.mass[cell] = mass;
     }
     fn wet(&mut self, cell: usize, populations: &Cell) {
         self.surface.kinds[cell] = Kind::Interface;
         self.f[cell] = *populations;
+        self.surface.touches[cell] = touch::GAS;
         self.surface.mass[cell] = 0.0;
         self.surface.velocity[cell] = moments(populations, &[0.0; 3]).u;
         self.forget_omega(cell);

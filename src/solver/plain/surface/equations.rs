@@ -1,6 +1,6 @@
 //! The equations of the surface that need more than one cell, over the arrays of a run.
 
-use crate::free_surface::{Kind, conversion::excess, exchange};
+use crate::free_surface::{Kind, conversion::excess, exchange, voids};
 use crate::lattice::opposite;
 use crate::solver::cell::Cell;
 
@@ -15,6 +15,8 @@ pub struct Collided<'a> {
     pub kinds: &'a [Kind],
     /// φ of every cell.
     pub fill: &'a [f64],
+    /// c of interface cells, φ elsewhere.
+    pub carried: &'a [f64],
 }
 
 /// A link between two cells.
@@ -37,7 +39,7 @@ pub trait SurfacePhysics: Clone + Send + Sync + 'static {
     #[inline(always)]
     fn gained(&self, cells: &Collided, link: &SurfaceLink) -> f64 {
         let SurfaceLink { cell, i, from, direction } = *link;
-        let share = exchange::wetted_share(cells.kinds[from], cells.fill[cell], cells.fill[from]);
+        let share = exchange::wetted_share(cells.kinds[from], cells.carried[cell], cells.carried[from]);
         exchange::link_mass(share, cells.after[from][direction], cells.after[cell][opposite(i)])
     }
 
@@ -46,6 +48,24 @@ pub trait SurfacePhysics: Clone + Send + Sync + 'static {
     #[inline(always)]
     fn gas_link(&self, after: &[Cell], cell: usize, out: usize, u: &[f64; 3]) -> f64 {
         exchange::gas_link(after[cell][out], out, u)
+    }
+
+    /// Density that a void gives up \[F8\], see [`sink`](voids::sink).
+    #[inline(always)]
+    fn void_sink(&self, fill: f64, d_rho: f64) -> f64 {
+        voids::sink(fill, d_rho)
+    }
+
+    /// 1 − A of a link between interface cells \[F9\]; `share`: what the method says.
+    #[inline(always)]
+    fn dry_share(&self, share: f64) -> f64 {
+        share
+    }
+
+    /// 1 − A of a link to a wall \[F9\]; `share`: what the method says.
+    #[inline(always)]
+    fn dry_share_at_wall(&self, share: f64) -> f64 {
+        share
     }
 
     /// Mass that a conversion leaves over \[F4\], see [`excess()`](excess::excess).

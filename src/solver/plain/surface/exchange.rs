@@ -2,10 +2,11 @@
 
 use super::{Collided, Surface, SurfaceLink, SurfacePhysics};
 use crate::boundary::hand_over::HandOver;
-use crate::boundary::links::Source;
+use crate::boundary::links::{Links, Source};
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::touch;
-use crate::free_surface::exchange::{gas_link, wetted_share};
+use crate::free_surface::exchange::{carried, gas_link, tangential_weight, wetted_share};
+use crate::lane::Lane;
 use crate::lattice::equilibrium::dot;
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, opposite};
@@ -26,6 +27,7 @@ struct ExchangeChunk<'a> {
 impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
     /// Moves mass over the links of interface cells, before anything streams.
     pub(in crate::solver::plain) fn exchange_mass(&mut self) {
+        let carried = self.carried_shares();
         let Some(surface) = &mut self.surface else { return };
         let mut mass = std::mem::take(&mut surface.mass);
         let mut touches = std::mem::take(&mut surface.touches);
@@ -40,7 +42,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         each(self.pool.as_ref(), items, |chunk: ExchangeChunk| {
             for (k, mass) in chunk.mass.iter_mut().enumerate() {
                 if surface.kinds[chunk.start + k] == Kind::Interface {
-                    let (gained, touches) = self.exchange_cell(surface, chunk.start + k);
+                    let (gained, touches) = self.exchange_cell(surface, &carried, chunk.start + k);
                     *mass += gained;
                     chunk.touches[k] = touches;
                 }
@@ -51,11 +53,31 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         }
     }
 
+    /// c of every interface cell, φ of the others.
+    fn carried_shares(&self) -> Vec<f64> {
+        let Some(surface) = &self.surface else { return Vec::new() };
+        let mut carried = surface.fill.clone();
+        let items = carried.chunks_mut(CHUNK).enumerate().collect();
+        each(self.pool.as_ref(), items, |(k, chunk): (usize, &mut [f64])| {
+            for (j, carried) in chunk.iter_mut().enumerate() {
+                if surface.kinds[k * CHUNK + j] == Kind::Interface {
+                    *carried = surface.carried_share(&self.links, k * CHUNK + j);
+                }
+            }
+        });
+        carried
+    }
+
     /// Δm and neighbours of an interface cell.
     #[inline(never)]
-    fn exchange_cell(&self, surface: &Surface<S>, cell: usize) -> (f64, u8) {
-        let collided =
-            Collided { before: &self.f, after: &self.post, kinds: &surface.kinds, fill: &surface.fill };
+    fn exchange_cell(&self, surface: &Surface<S>, carried: &[f64], cell: usize) -> (f64, u8) {
+        let collided = Collided {
+            before: &self.f,
+            after: &self.post,
+            kinds: &surface.kinds,
+            fill: &surface.fill,
+            carried,
+        };
         let at = self.setup.coordinates(cell);
         let mut gained = [0.0; Q];
         let mut touches = 0;
@@ -87,14 +109,14 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
     }
 
     /// What an open face sends back in direction `i`: as gas where fluid leaves, as a wall at rest where
-    /// it would come in. Open faces come with a surface only.
+    /// it would come in, over the whole face or over this link. Open faces come with a surface only.
     #[inline]
     pub(in crate::solver::plain) fn open_link(&self, cell: usize, i: usize) -> f64 {
         let out = opposite(i);
         let leaving = self.post[cell][out];
         match &self.surface {
             Some(surface) if dot(out, &surface.velocity[cell]) > 0.0 => {
-                gas_link(leaving, out, &surface.velocity[cell])
+                f64::smaller(gas_link(leaving, out, &surface.velocity[cell]), leaving)
             }
             Some(_) | None => leaving,
         }
@@ -102,6 +124,28 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
 }
 
 impl<S: SurfacePhysics> Surface<S> {
+    /// c of an interface cell.
+    fn carried_share(&self, links: &Links, cell: usize) -> f64 {
+        let normal = self.outward_at(links, cell);
+        let square = (normal[0] * normal[0] + normal[1] * normal[1]) + normal[2] * normal[2];
+        if square <= 0.0 {
+            return self.fill[cell];
+        }
+        let mut sums = [[0.0; Q]; 3];
+        for i in 1..Q {
+            let Source::Cell { cell: from, .. } = links.source(cell, i) else { continue };
+            let kind = match self.kinds[from as usize] {
+                Kind::Gas => 0,
+                Kind::Liquid => 1,
+                Kind::Interface => 2,
+                Kind::Solid => continue,
+            };
+            sums[kind][i] = tangential_weight(i, &normal, square);
+        }
+        let [gas, liquid, level] = sums.map(|sum| density_excess(&sum));
+        carried(self.fill[cell], gas, liquid, level)
+    }
+
     /// Whether the population that would come `from` a cell is sent back by gas: only interface touches gas.
     #[inline]
     pub(in crate::solver::plain) fn is_gas_link(&self, cell: usize, from: usize) -> bool {

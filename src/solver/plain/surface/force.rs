@@ -1,4 +1,4 @@
-//! Body force of interface cells \[F3\].
+//! Body force of interface cells \[F3\] \[F9\].
 
 use super::{Surface, SurfacePhysics};
 use crate::boundary::links::{Links, Source};
@@ -25,7 +25,8 @@ impl<S: SurfacePhysics> Surface<S> {
             SurfaceForce::ByFillAndInertia => self.acceleration_around(links, cell),
             SurfaceForce::Full | SurfaceForce::ByFill => [0.0; 3],
         };
-        interface_force(self.rules.force, force, self.fill[cell], &acceleration)
+        let weight = interface_force(self.rules.force, force, self.fill[cell], &acceleration);
+        std::array::from_fn(|a| weight[a] + self.dry[cell][a])
     }
 
     /// Mean smoothed acceleration of the liquid neighbours; zero without any.

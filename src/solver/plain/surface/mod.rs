@@ -6,6 +6,7 @@
 mod balance;
 pub(super) mod cells;
 mod convert;
+mod dry;
 mod equations;
 mod exchange;
 mod force;
@@ -13,6 +14,7 @@ mod force;
 use std::collections::BTreeMap;
 
 use crate::boundary::links::{CellKind, Links};
+use crate::free_surface::conversion::touch;
 use crate::free_surface::{Kind, classify, hydrostatic};
 use crate::lattice::Q;
 use crate::lattice::moments::density_excess;
@@ -38,6 +40,8 @@ pub(super) struct Surface<S> {
     pub(super) acceleration: Vec<[f64; 3]>,
     /// u of the collision before; only for the rule with inertia, and empty before its first one.
     velocity_before: Vec<[f64; 3]>,
+    /// What interface cells take back in the next collision \[F9\]; 0 elsewhere.
+    pub(super) dry: Vec<[f64; 3]>,
     /// What each interface cell touches, as bits of [`crate::free_surface::conversion::touch`].
     touches: Vec<u8>,
     /// Excess mass without receiver, by cell \[F6\].
@@ -86,7 +90,9 @@ impl<S: SurfacePhysics> Surface<S> {
             velocity: vec![[0.0; 3]; cells],
             acceleration: vec![[0.0; 3]; if inertia { cells } else { 0 }],
             velocity_before: Vec::new(),
-            touches: vec![0; cells],
+            dry: vec![[0.0; 3]; cells],
+            // Nobody has looked yet; what touches no gas is a void.
+            touches: vec![touch::GAS; cells],
             parked: BTreeMap::new(),
             special: Vec::new(),
             books: Books::default(),
@@ -139,8 +145,9 @@ impl<S: SurfacePhysics> Surface<S> {
 
     /// Bytes held.
     pub(super) fn bytes(&self) -> u64 {
-        let vectors = (self.velocity.len() + self.acceleration.len() + self.velocity_before.len())
-            * size_of::<[f64; 3]>();
+        let vectors =
+            (self.velocity.len() + self.acceleration.len() + self.velocity_before.len() + self.dry.len())
+                * size_of::<[f64; 3]>();
         let numbers = (self.mass.len() + self.fill.len() + self.rules.fill.len()) * size_of::<f64>();
         let marks = self.kinds.len() + self.touches.len();
         (vectors + numbers + marks) as u64

@@ -109,16 +109,21 @@ pub const FALLS: Claim = Claim {
 const LENGTH: usize = 32;
 const SPEED: f64 = 0.05;
 
-/// A liquid layer under an interface layer between mirror planes: no gas, no force, uniform flow.
-fn carried_setup(density: f64) -> Setup {
-    let mut setup = Setup::periodic([LENGTH, 1, 2], LAW);
+/// Amplitude of the pattern: terms quadratic in its slope, (2π/32 · 1e-3)², are left out of the reference.
+const AMPLITUDE: f64 = 1e-3;
+
+/// A liquid layer on a mirror plane, an interface layer, and gas: no force, uniform flow.
+fn carried_setup(fill: f64) -> Setup {
+    let mut setup = Setup::periodic([LENGTH, 1, 3], LAW);
     setup.faces[2] = [Face::FreeSlip; 2];
     let wave = |i: usize| libm::sin(2.0 * core::f64::consts::PI * (i as f64 + 0.5) / LENGTH as f64);
-    let fills = (0..2 * LENGTH)
-        .map(|cell| if cell < LENGTH { 1.0 } else { 0.5 + 0.2 * wave(cell - LENGTH) })
-        .collect();
-    setup.free_surface = Some(FreeSurface::new(fills));
-    let point = FlowPoint { density, velocity: [SPEED, 0.0, 0.0], gradient: [[0.0; 3]; 3] };
+    let fills = (0..3 * LENGTH).map(|cell| match cell / LENGTH {
+        0 => 1.0,
+        1 => fill + AMPLITUDE * wave(cell - LENGTH),
+        _ => 0.0,
+    });
+    setup.free_surface = Some(FreeSurface::new(fills.collect()));
+    let point = FlowPoint { density: 1.0, velocity: [SPEED, 0.0, 0.0], gradient: [[0.0; 3]; 3] };
     setup.initial = Some(std::sync::Arc::new(move |_| point));
     setup
 }
@@ -136,41 +141,40 @@ fn phase(run: &dyn Run) -> f64 {
 }
 
 /// Speed of the pattern over that of the fluid.
-fn carried(backend: &dyn Backend, density: f64) -> Result<Sample, VerifyError> {
-    let mut run = backend.start(&carried_setup(density))?;
+fn carried(backend: &dyn Backend, fill: f64) -> Result<Sample, VerifyError> {
+    let mut run = backend.start(&carried_setup(fill))?;
     let start = phase(run.as_ref());
     // A fifth of the box.
     let steps = 128;
     run.advance(steps)?;
     let turned = phase(run.as_ref()) - start;
     let k = 2.0 * core::f64::consts::PI / LENGTH as f64;
-    let share = 5.0 / 6.0;
-    let exact = steps as f64 * libm::atan(share * SPEED * libm::sin(k));
-    Ok(Sample::relative(density, turned / exact * share, share)
+    let exact = steps as f64 * libm::atan(SPEED * libm::sin(k));
+    Ok(Sample::relative(fill, turned / exact, 1.0)
         .with("conversions", ledger(run.as_ref()).conversions as f64))
 }
 
 /// Pattern speed.
 pub const CARRIED: Claim = Claim {
     id: "surface-pattern-carried",
-    title: "A pattern of fills on a uniform flow is carried at 5/6 of the flow, whatever the density",
+    title: "A pattern of fills on a uniform flow is carried with the flow, whatever the fill",
     tags: &["F1", "000 Eq 12", "001 Eq 12"],
     measures: "phase speed of the first mode over 128 steps, over the flow speed and the central difference's own lag",
-    reference: Reference {
-        source: "links of the layer itself and of its mirror image carry 4/6 + 1/6 of the flow; the 1/6 on links to the \
-                 liquid below is not weighted with the fill (A = 1). The physical speed is 1",
-        uncertainty: 0.0,
-    },
+    reference: Reference { source: "what lies on a uniform flow moves with it", uncertainty: 0.0 },
     metric: Metric::Relative,
-    ladder: Ladder { parameter: "density of the fluid", short: &[1.0, 1.02], full: &[0.98, 1.0, 1.02, 1.05] },
+    ladder: Ladder {
+        parameter: "mean fill of the layer",
+        short: &[0.1, 0.5],
+        full: &[0.1, 0.3, 0.5, 0.7, 0.9],
+    },
     order: None,
     tolerance: Tolerance {
-        value: 1e-12,
+        value: 1e-4,
         at: Rung::Every,
-        basis: Basis::Derived,
-        because: "linear equation with a known factor per step; what is left is rounding, 128 steps of 1e-16 over a \
-                  phase of 1",
+        basis: Basis::AfterSeeing,
+        because: "a linear equation with a known factor per step, but for the lean of the surface (2e-4 over half a cell)² and \
+                  for what the wave does to the flow; 2.6e-5 seen, shares that are mean fills give 0.2",
     },
-    kind: Kind::PredictedFailure,
+    kind: Kind::Verification,
     measure: carried,
 };

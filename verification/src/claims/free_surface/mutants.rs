@@ -8,8 +8,8 @@ pub const MASSES: Mutant = Mutant {
     id: "exchange-of-masses",
     erratum: "ERRATA 20 (000 Eq 12)",
     description: "The wetted share of a link is the mean of the two masses instead of the mean of the two fills.",
-    caught_by: "surface-pattern-carried",
-    rung: None,
+    caught_by: "film-wave-speed",
+    rung: Some(8.5),
     subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ExchangeOfMasses))),
 };
 
@@ -51,4 +51,34 @@ pub const EXCESS_DROPPED: Mutant = Mutant {
     caught_by: "dam-break-mass",
     rung: Some(500.0),
     subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ExcessDropped))),
+};
+
+/// Shares that are mean fills.
+pub const MEAN_FILLS: Mutant = Mutant {
+    id: "exchange-of-mean-fills",
+    erratum: "ERRATA 20 (000 Eq 12)",
+    description: "The wetted share of a link between interface cells is the mean of their fills, as the papers have it.",
+    caught_by: "film-wave-speed",
+    rung: Some(8.5),
+    subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ExchangeOfMeanFills))),
+};
+
+/// Lateral stress whatever the fill.
+pub const LATERAL_STRESS: Mutant = Mutant {
+    id: "lateral-stress-in-full",
+    erratum: "F9",
+    description: "Partly filled cells exchange viscous momentum with their neighbours and side walls as full ones do.",
+    caught_by: "trough-level",
+    rung: Some(10.02),
+    subject: Subject::Backend(|| Box::new(Mistaken(Mistake::LateralStressInFull))),
+};
+
+/// No sink.
+pub const VOIDS_KEPT: Mutant = Mutant {
+    id: "voids-kept",
+    erratum: "F8",
+    description: "Partly filled cells without gas neighbour keep the volume that they lack.",
+    caught_by: "voids-close",
+    rung: Some(12.0),
+    subject: Subject::Backend(|| Box::new(Mistaken(Mistake::VoidsKept))),
 };
