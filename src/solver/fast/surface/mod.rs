@@ -15,6 +15,7 @@ pub(crate) mod packed;
 mod pass;
 pub(crate) mod record;
 mod report;
+mod spread;
 mod start;
 pub(crate) mod state;
 pub(crate) mod streaming;

@@ -28,6 +28,17 @@ pub(crate) struct Near<'a, E> {
     pub flow: [[&'a [f64]; 27]; NUMBERS],
 }
 
+/// What came over the links of the cells of a pack.
+struct Streamed<L> {
+    arrived: [L; Q],
+    gained: [L; Q],
+    /// (1 − A) v by link.
+    apart: [L; Q],
+    from_gas: [L; 3],
+    /// 1 where the cell touches gas, liquid.
+    touched: [L; 2],
+}
+
 /// Columns of one pack: one number per lane.
 #[repr(align(64))]
 struct Columns {
@@ -92,8 +103,7 @@ impl Columns {
                 let dry = other.less(zero);
                 gas = <R::Pack as Lane>::select(dry, one, gas);
                 liquid = <R::Pack as Lane>::select(one.less(other), one, liquid);
-                let back = gas_link(own[out], out, &u);
-                let arrived = <R::Pack as Lane>::select(dry, back, from[i]);
+                let arrived = <R::Pack as Lane>::select(dry, gas_link(own[out], out, &u), from[i]);
                 let level = <R::Pack as Lane>::not(one.less(other));
                 let level = <R::Pack as Lane>::and(<R::Pack as Lane>::not(dry), level);
                 let mut share = share_with(fill, other);
@@ -118,20 +128,27 @@ impl Columns {
                 arrived
             },
         );
-        R::store_wide(R::Pack::one() + density_excess(&arrived), &mut self.rho[part..]);
-        R::store_wide(density_excess(&gained), &mut self.gained[part..]);
+        self.keep::<R>(&Streamed { arrived, gained, apart, from_gas, touched: [gas, liquid] }, &u, part);
+    }
+
+    /// Puts what has streamed into part of the columns.
+    #[inline(always)]
+    fn keep<R: Registers>(&mut self, streamed: &Streamed<R::Pack>, u: &[R::Pack; 3], part: usize) {
+        let Streamed { arrived, gained, apart, from_gas, touched: [gas, liquid] } = streamed;
+        R::store_wide(R::Pack::one() + density_excess(arrived), &mut self.rho[part..]);
+        R::store_wide(density_excess(gained), &mut self.gained[part..]);
         for i in 0..Q {
             R::store_wide(arrived[i], &mut self.arrived[i][part..]);
         }
         for a in 0..3 {
             R::store_wide(from_gas[a], &mut self.from_gas[a][part..]);
         }
-        let taken = taken_back(&apart, &u);
+        let taken = taken_back(apart, u);
         for a in 0..3 {
             R::store_wide(taken[a], &mut self.dry[a][part..]);
         }
-        R::store_wide(gas, &mut self.gas[part..]);
-        R::store_wide(liquid, &mut self.liquid[part..]);
+        R::store_wide(*gas, &mut self.gas[part..]);
+        R::store_wide(*liquid, &mut self.liquid[part..]);
     }
 
     /// Hands the results to the records and the books.

@@ -38,16 +38,11 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
     pub(super) fn stream(&self, cell: &mut InterfaceCell, entries: &mut Entries) {
         let local = usize::from(cell.local);
         let own = after(self.task, self.number, local);
-        let d_rho = density_excess(&own);
-        let rho = 1.0 + d_rho;
-        // An interface cell's own φ; that of a liquid neighbour is not used.
-        let fill = self.surface.fill[self.number][local];
-        let (.., own_share) = flow_at(&self.surface.flow[self.number], local);
+        let here = self.here(cell, &own);
+        let (rho, fill) = (1.0 + here.d_rho, here.fill);
         let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
-        let mut arrived = own;
-        let (mut gained, mut apart) = ([0.0; Q], [0.0; Q]);
-        let mut touches = 0;
-        let mut normal = None;
+        let (mut arrived, mut gained, mut apart) = (own, [0.0; Q], [0.0; Q]);
+        let (mut touches, mut normal) = (0, None);
         let mut booked = CellEntries::default();
         for i in 1..Q {
             let out = opposite(i);
@@ -58,10 +53,8 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                     touches |= touch::WALL;
                     let u = &self.task.velocities[velocity as usize];
                     arrived[i] = wall_link(self.task, self.number, self.rim, link, rho, u, body);
-                    let here = even(out, d_rho, &cell.velocity);
                     let normal = normal.get_or_insert_with(|| self.outward(local, fill));
-                    apart[i] =
-                        dry_share_at_wall(fill, out, normal) * viscous(arrived[i], own[out], here, here);
+                    apart[i] = here.dry_at_wall(out, arrived[i], normal);
                     Source::Wall { velocity: *u, body }
                 }
                 End::Open(link) => {
@@ -86,17 +79,8 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                             touches |= touch::LIQUID;
                         }
                         arrived[i] = self.sent(number, local, direction);
-                        let other = self.surface.fill[number as usize][local];
-                        let mut shares = [fill, other];
-                        if kind == Kind::Interface {
-                            let (there, u, carried) = flow_at(&self.surface.flow[number as usize], local);
-                            shares = [own_share, carried];
-                            let ends = [even(direction, there, &u), even(out, d_rho, &cell.velocity)];
-                            apart[i] =
-                                dry_share(fill, other) * viscous(arrived[i], own[out], ends[0], ends[1]);
-                        }
-                        let share = wetted_share(kind, shares[0], shares[1]);
-                        gained[i] = link_mass(share, arrived[i], own[out]);
+                        [gained[i], apart[i]] =
+                            self.exchanged(&here, arrived[i], kind, [out, direction], (number, local));
                     }
                     Source::Cell { cell: 0, direction: direction as u8 }
                 }
@@ -110,6 +94,35 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         cell.rho = 1.0 + density_excess(&arrived);
         cell.mass += density_excess(&gained) - self.handed(local, fill, entries);
         (cell.f, cell.touches, cell.dry) = (arrived, touches, taken_back(&apart, &cell.velocity));
+    }
+
+    /// What a cell exchanges with.
+    fn here<'c>(&self, cell: &'c InterfaceCell, own: &'c [f64; Q]) -> Here<'c> {
+        let local = usize::from(cell.local);
+        // An interface cell's own φ; that of a liquid neighbour is not used.
+        let fill = self.surface.fill[self.number][local];
+        let (.., carried) = flow_at(&self.surface.flow[self.number], local);
+        Here { own, d_rho: density_excess(own), fill, carried, u: &cell.velocity }
+    }
+
+    /// Mass and dry viscous momentum of a link from a fluid cell. `directions`: towards it, and of what it sends.
+    fn exchanged(
+        &self,
+        here: &Here,
+        arrived: f64,
+        kind: Kind,
+        [out, direction]: [usize; 2],
+        (number, local): (u32, usize),
+    ) -> [f64; 2] {
+        let other = self.surface.fill[number as usize][local];
+        let (mut shares, mut apart) = ([here.fill, other], 0.0);
+        if kind == Kind::Interface {
+            let (there, u, carried) = flow_at(&self.surface.flow[number as usize], local);
+            shares = [here.carried, carried];
+            let ends = [even(direction, there, &u), even(out, here.d_rho, here.u)];
+            apart = dry_share(here.fill, other) * viscous(arrived, here.own[out], ends[0], ends[1]);
+        }
+        [link_mass(wetted_share(kind, shares[0], shares[1]), arrived, here.own[out]), apart]
     }
 
     /// c of an interface cell \[F1\].
@@ -256,6 +269,25 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
             booked.link(&crossing, &source, false, entries);
         }
         booked.close(entries);
+    }
+}
+
+/// An interface cell after its collision.
+struct Here<'a> {
+    own: &'a [f64; Q],
+    d_rho: f64,
+    /// φ.
+    fill: f64,
+    /// c \[F1\].
+    carried: f64,
+    u: &'a [f64; 3],
+}
+
+impl Here<'_> {
+    /// Dry viscous momentum of a link to a wall \[F9\].
+    fn dry_at_wall(&self, out: usize, arrived: f64, normal: &[f64; 3]) -> f64 {
+        let even = even(out, self.d_rho, self.u);
+        dry_share_at_wall(self.fill, out, normal) * viscous(arrived, self.own[out], even, even)
     }
 }
 
