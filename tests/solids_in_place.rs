@@ -3,29 +3,9 @@
 
 mod program;
 
-use std::path::Path;
-
-use lahar::output::csv::Series;
 use lahar::plan::Plan;
 use lahar::scene;
-use program::{lahar, root};
-
-/// The series of a scene of this package.
-fn series(file: &str) -> Series {
-    let name = file.replace(['/', '.'], "_");
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    let run = lahar(&["run", file, "--quiet", "--out", folder.to_str().expect("a folder")]);
-    assert_eq!(run.status.code(), Some(0), "{file}: {}", String::from_utf8_lossy(&run.stderr));
-    Series::read(&folder.join("series.csv")).unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// A column of the series.
-fn column(series: &Series, name: &str) -> Vec<f64> {
-    let found = series.columns.iter().position(|column| column.name.starts_with(name));
-    let at = found.unwrap_or_else(|| panic!("no {name} in the series"));
-    series.rows.iter().map(|row| row[at]).collect()
-}
+use program::{column, root, series};
 
 fn last(values: &[f64]) -> f64 {
     values.last().copied().unwrap_or(f64::NAN)

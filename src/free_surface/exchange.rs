@@ -3,7 +3,8 @@
 use super::Kind;
 use crate::lane::Lane;
 use crate::lattice::equilibrium::dot;
-use crate::lattice::{C, W, opposite};
+use crate::lattice::moments::density_excess;
+use crate::lattice::{C, Q, W, opposite};
 
 /// A: the wetted share of a link from an interface cell.
 ///
@@ -97,6 +98,39 @@ pub(crate) fn tangential_weight<L: Lane>(i: usize, normal: &[L; 3], square: L) -
     L::splat(3.0 * W[i]) * (L::splat(f64::from(links)) - cn * cn / square)
 }
 
+/// [`carried`] of one cell.
+///
+/// # Arguments
+/// `fill`: φ. `normal`: of the surface, any length. `kind(i)`: of the cell that population `i` comes from, `None` at walls,
+/// solids and open faces.
+/// # Source
+/// docs/method.md \[F1\], ours.
+/// # Verified by
+/// As [`carried`].
+#[must_use]
+pub(crate) fn carried_among(
+    fill: f64,
+    normal: &[f64; 3],
+    mut kind: impl FnMut(usize) -> Option<Kind>,
+) -> f64 {
+    let square = (normal[0] * normal[0] + normal[1] * normal[1]) + normal[2] * normal[2];
+    if square <= 0.0 {
+        return fill;
+    }
+    let mut sums = [[0.0; Q]; 3];
+    for i in 1..Q {
+        let side = match kind(i) {
+            Some(Kind::Gas) => 0,
+            Some(Kind::Liquid) => 1,
+            Some(Kind::Interface) => 2,
+            Some(Kind::Solid) | None => continue,
+        };
+        sums[side][i] = tangential_weight(i, normal, square);
+    }
+    let [gas, liquid, level] = sums.map(|sum| density_excess(&sum));
+    carried(fill, gas, liquid, level)
+}
+
 /// Δm of one link: A (f_ī*(x + c_i) − f_i*(x)).
 ///
 /// # Arguments
@@ -135,7 +169,6 @@ pub(crate) fn gas_link<L: Lane>(leaving: L, i: usize, u: &[L; 3]) -> L {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::Q;
 
     #[test]
     fn exact_share_of_every_kind() {

@@ -29,7 +29,7 @@ pub(crate) fn even<L: Lane>(i: usize, d_rho: L, u: &[L; 3]) -> L {
 /// # Source
 /// docs/method.md \[F9\], ours.
 /// # Verified by
-/// Claims `trough-level-*`.
+/// Claim `trough-level`.
 #[inline(always)]
 #[must_use]
 pub(crate) fn viscous<L: Lane>(arriving: L, leaving: L, there: L, here: L) -> L {
@@ -41,7 +41,7 @@ pub(crate) fn viscous<L: Lane>(arriving: L, leaving: L, there: L, here: L) -> L 
 /// # Source
 /// docs/method.md \[F9\].
 /// # Verified by
-/// Claims `trough-level-*`.
+/// Claim `trough-level`.
 #[inline(always)]
 #[must_use]
 pub(crate) fn dry_share<L: Lane>(fill: L, other: L) -> L {
@@ -56,7 +56,7 @@ pub(crate) fn dry_share<L: Lane>(fill: L, other: L) -> L {
 /// # Source
 /// docs/method.md \[F9\], ours.
 /// # Verified by
-/// Test `exact_shares_of_walls`; claims `trough-level-*`.
+/// Test `exact_shares_of_walls`; claim `trough-level`.
 #[must_use]
 pub(crate) fn dry_share_at_wall(fill: f64, out: usize, normal: &[f64; 3]) -> f64 {
     let length2 = (normal[0] * normal[0] + normal[1] * normal[1]) + normal[2] * normal[2];
@@ -81,7 +81,7 @@ const FAST: f64 = 25.0;
 /// # Source
 /// docs/method.md \[F9\].
 /// # Verified by
-/// Claims `trough-level-*`.
+/// Claim `trough-level`.
 #[inline(always)]
 #[must_use]
 pub(crate) fn taken_back<L: Lane>(parts: &[L; Q], u: &[L; 3]) -> [L; 3] {

@@ -6,7 +6,7 @@ use super::state::Surface;
 use crate::boundary::links::Source;
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::touch;
-use crate::free_surface::exchange::{carried, gas_link, link_mass, tangential_weight, wetted_share};
+use crate::free_surface::exchange::{carried_among, gas_link, link_mass, wetted_share};
 use crate::free_surface::normal::outward_beside_walls;
 use crate::free_surface::shares::{dry_share, dry_share_at_wall, even, taken_back, viscous};
 use crate::lattice::moments::density_excess;
@@ -128,26 +128,15 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
     /// c of an interface cell \[F1\].
     pub(super) fn carried(&self, local: usize) -> f64 {
         let fill = self.surface.fill[self.number][local];
-        let normal = self.outward(local, fill);
-        let square = (normal[0] * normal[0] + normal[1] * normal[1]) + normal[2] * normal[2];
-        if square <= 0.0 {
-            return fill;
-        }
-        let mut sums = [[0.0; Q]; 3];
         let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
-        for i in 1..Q {
+        // Links are listed in the order of the directions.
+        carried_among(fill, &self.outward(local, fill), |i| {
             let link = links.next_if(|link| usize::from(link.direction) == i);
-            let End::Cell { number, local, .. } = self.end(local, i, link) else { continue };
-            let kind = match self.kind(number, local) {
-                Kind::Gas => 0,
-                Kind::Liquid => 1,
-                Kind::Interface => 2,
-                Kind::Solid => continue,
-            };
-            sums[kind][i] = tangential_weight(i, &normal, square);
-        }
-        let [gas, liquid, level] = sums.map(|sum| density_excess(&sum));
-        carried(fill, gas, liquid, level)
+            match self.end(local, i, link) {
+                End::Cell { number, local, .. } => Some(self.kind(number, local)),
+                End::Wall { .. } | End::Open(_) => None,
+            }
+        })
     }
 
     /// Normal of the surface at a cell; grains count as the cell itself.

@@ -5,7 +5,7 @@ use crate::boundary::hand_over::HandOver;
 use crate::boundary::links::{Links, Source};
 use crate::free_surface::Kind;
 use crate::free_surface::conversion::touch;
-use crate::free_surface::exchange::{carried, gas_link, tangential_weight, wetted_share};
+use crate::free_surface::exchange::{carried_among, gas_link, wetted_share};
 use crate::lane::Lane;
 use crate::lattice::equilibrium::dot;
 use crate::lattice::moments::density_excess;
@@ -126,24 +126,10 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
 impl<S: SurfacePhysics> Surface<S> {
     /// c of an interface cell.
     fn carried_share(&self, links: &Links, cell: usize) -> f64 {
-        let normal = self.outward_at(links, cell);
-        let square = (normal[0] * normal[0] + normal[1] * normal[1]) + normal[2] * normal[2];
-        if square <= 0.0 {
-            return self.fill[cell];
-        }
-        let mut sums = [[0.0; Q]; 3];
-        for i in 1..Q {
-            let Source::Cell { cell: from, .. } = links.source(cell, i) else { continue };
-            let kind = match self.kinds[from as usize] {
-                Kind::Gas => 0,
-                Kind::Liquid => 1,
-                Kind::Interface => 2,
-                Kind::Solid => continue,
-            };
-            sums[kind][i] = tangential_weight(i, &normal, square);
-        }
-        let [gas, liquid, level] = sums.map(|sum| density_excess(&sum));
-        carried(self.fill[cell], gas, liquid, level)
+        carried_among(self.fill[cell], &self.outward_at(links, cell), |i| match links.source(cell, i) {
+            Source::Cell { cell: from, .. } => Some(self.kinds[from as usize]),
+            Source::Wall { .. } | Source::Open => None,
+        })
     }
 
     /// Whether the population that would come `from` a cell is sent back by gas: only interface touches gas.

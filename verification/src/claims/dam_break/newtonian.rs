@@ -262,8 +262,8 @@ pub const RITTER: Claim = Claim {
         value: 0.07,
         at: Rung::Last,
         basis: Basis::AfterSeeing,
-        because: "6.3 % on 24 cells, where both tend to another limit than the theory: shallow-water theory has no vertical acceleration: its profile is reached to (h0/x)^2, with x = 4 h0 \
-                  the way the rarefaction has gone",
+        because: "shallow-water theory has no vertical acceleration: its profile is reached to (h0/x)^2 = 6.25 %, with x = 4 h0 the way \
+                  the rarefaction has gone, times a coefficient near 1; 6.3 % seen on 24 cells",
     },
     kind: Kind::Verification,
     measure: ritter_depth,
