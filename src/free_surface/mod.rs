@@ -6,6 +6,7 @@
 
 mod columns;
 mod confined;
+pub(crate) mod contact;
 pub mod conversion;
 pub mod exchange;
 pub(crate) mod force;

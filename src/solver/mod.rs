@@ -1,5 +1,6 @@
 //! State, steps and the backends that take them.
 
+pub(crate) mod balance;
 pub(crate) mod books;
 pub mod boundary_cells;
 pub(crate) mod cell;

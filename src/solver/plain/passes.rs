@@ -95,7 +95,6 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         (self.post, self.previous_omega) = (post, omega);
         if let Some(surface) = &mut self.surface {
             surface.velocity = velocity;
-            surface.accelerate();
             for chunk in &results {
                 surface.books.from_force.merge(&chunk.brought);
             }
@@ -186,26 +185,32 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         }
     }
 
-    /// Streaming into a cell that touches a wall, a solid, a mirror plane or gas \[B1\]–\[B4\] \[F2\].
+    /// Streaming into a cell that touches a wall, a solid, a mirror plane or gas \[B1\]–\[B4\] \[F2\] \[F10\].
     #[inline(never)]
     fn gather_links(&self, cell: usize, at: [usize; 3], correction: Option<&Cell>, cut: Option<u32>) -> Cell {
         let own = &self.post[cell];
         let rho = 1.0 + density_excess(own);
+        let partly = self.surface.as_ref().filter(|surface| surface.kinds[cell] == Kind::Interface);
+        let mut contact = None;
         std::array::from_fn(|i| {
             if i == 0 {
                 return own[0];
             }
             match self.links.source_at(cell, at, i) {
                 Source::Wall { velocity, body } => {
-                    cut.and_then(|place| self.cuts.returned(place, opposite(i))).unwrap_or_else(|| {
-                        let back = cell::wall_link(&self.physics, own, correction, i, rho, &velocity);
-                        match self.hand_over.at(cell, body) {
-                            None => back,
-                            Some(record) => {
-                                back + W[i] * self.hand_over.raise(record, rho, self.given(record))
+                    let back =
+                        cut.and_then(|place| self.cuts.returned(place, opposite(i))).unwrap_or_else(|| {
+                            let back = cell::wall_link(&self.physics, own, correction, i, rho, &velocity);
+                            match self.hand_over.at(cell, body) {
+                                None => back,
+                                Some(record) => {
+                                    back + W[i] * self.hand_over.raise(record, rho, self.given(record))
+                                }
                             }
-                        }
-                    })
+                        });
+                    let Some(surface) = partly else { return back };
+                    let contact = contact.get_or_insert_with(|| surface.contact_at(&self.links, cell));
+                    surface.meet_wall(&self.post, contact, (cell, opposite(i)), back)
                 }
                 Source::Open => self.open_link(cell, i),
                 Source::Cell { cell: from, direction } => {

@@ -134,9 +134,9 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         self.exchange_with_grains();
         self.exchange_mass();
         self.stream_pass();
-        self.dry_pass();
         self.book_links();
         self.book_loads();
+        self.dry_pass();
         self.close_voids();
         self.convert(&force);
         self.move_grains()?;

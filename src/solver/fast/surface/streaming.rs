@@ -5,12 +5,13 @@ use super::record::InterfaceCell;
 use super::state::Surface;
 use crate::boundary::links::Source;
 use crate::free_surface::Kind;
+use crate::free_surface::contact::{Contact, sent_back};
 use crate::free_surface::conversion::touch;
 use crate::free_surface::exchange::{carried_among, gas_link, link_mass, wetted_share};
-use crate::free_surface::normal::outward_beside_walls;
 use crate::free_surface::shares::{dry_share, dry_share_at_wall, even, taken_back, viscous};
 use crate::lattice::moments::density_excess;
 use crate::lattice::{Q, opposite};
+use crate::solver::balance::{Carrying, LinkEnd};
 use crate::solver::books::{CellEntries, Crossing, Entries};
 use crate::solver::fast::block::{Block, Link, Origin};
 use crate::solver::fast::element::{Element, index};
@@ -42,7 +43,7 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         let (rho, fill) = (1.0 + here.d_rho, here.fill);
         let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
         let (mut arrived, mut gained, mut apart) = (own, [0.0; Q], [0.0; Q]);
-        let (mut touches, mut normal) = (0, None);
+        let (mut touches, mut contact) = (0, None);
         let mut booked = CellEntries::default();
         for i in 1..Q {
             let out = opposite(i);
@@ -52,9 +53,11 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                 End::Wall { velocity, body, link } => {
                     touches |= touch::WALL;
                     let u = &self.task.velocities[velocity as usize];
-                    arrived[i] = wall_link(self.task, self.number, self.rim, link, rho, u, body);
-                    let normal = normal.get_or_insert_with(|| self.outward(local, fill));
-                    apart[i] = here.dry_at_wall(out, arrived[i], normal);
+                    let back = wall_link(self.task, self.number, self.rim, link, rho, u, body);
+                    let contact = contact.get_or_insert_with(|| self.contact(local, fill));
+                    let gas = gas_link(own[out], out, &cell.velocity);
+                    arrived[i] = sent_back(back, gas, contact.meeting(out));
+                    apart[i] = here.dry_at_wall(out, arrived[i], &contact.along);
                     Source::Wall { velocity: *u, body }
                 }
                 End::Open(link) => {
@@ -93,7 +96,39 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         booked.close(entries);
         cell.rho = 1.0 + density_excess(&arrived);
         cell.mass += density_excess(&gained) - self.handed(local, fill, entries);
+        if contact.is_some() && !entries.loads.is_empty() {
+            self.carry(cell, &own, &arrived, entries);
+        }
         (cell.f, cell.touches, cell.dry) = (arrived, touches, taken_back(&apart, &cell.velocity));
+    }
+
+    /// Loads of an interface cell by balance \[C7\]; `arrived`: its populations after streaming.
+    fn carry(&self, cell: &InterfaceCell, own: &[f64; Q], arrived: &[f64; Q], entries: &mut Entries) {
+        let Some(surface) = &self.task.surface else { return };
+        let local = usize::from(cell.local);
+        let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
+        let ends = std::array::from_fn(|i| {
+            let link = links.next_if(|link| usize::from(link.direction) == i);
+            match self.end(local, i, link) {
+                End::Wall { body, .. } => LinkEnd::Wall(body),
+                End::Open(_) => LinkEnd::Open,
+                End::Cell { number: NONE, .. } => LinkEnd::Cell(Kind::Gas, 0.0),
+                End::Cell { number, local, .. } => {
+                    LinkEnd::Cell(self.kind(number, local), self.surface.fill[number as usize][local])
+                }
+            }
+        });
+        let carrying = Carrying {
+            fill: [self.surface.fill[self.number][local], cell.mass / cell.rho],
+            after: own,
+            arrived,
+            force: surface.force_of(self.number, cell, &self.task.force),
+            weight: self.task.force,
+            ends,
+        };
+        carrying.enter(entries, |i, body| {
+            self.task.arm(self.number, local, i, &Source::Wall { velocity: [0.0; 3], body })
+        });
     }
 
     /// What a cell exchanges with.
@@ -130,7 +165,7 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         let fill = self.surface.fill[self.number][local];
         let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
         // Links are listed in the order of the directions.
-        carried_among(fill, &self.outward(local, fill), |i| {
+        carried_among(fill, &self.contact(local, fill).along, |i| {
             let link = links.next_if(|link| usize::from(link.direction) == i);
             match self.end(local, i, link) {
                 End::Cell { number, local, .. } => Some(self.kind(number, local)),
@@ -139,13 +174,13 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         })
     }
 
-    /// Normal of the surface at a cell; grains count as the cell itself.
-    fn outward(&self, local: usize, fill: f64) -> [f64; 3] {
+    /// The surface at a cell beside walls; grains count as the cell itself.
+    fn contact(&self, local: usize, fill: f64) -> Contact {
         let mut by_direction = [None; Q];
         for link in self.block.links_of_cell(local, E::PER_LINE) {
             by_direction[usize::from(link.direction)] = Some(link);
         }
-        outward_beside_walls(
+        Contact::new(
             fill,
             &std::array::from_fn(|i| match self.end(local, opposite(i), by_direction[opposite(i)]) {
                 End::Cell { number: NONE, .. } => Some(0.0),

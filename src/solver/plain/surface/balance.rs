@@ -8,6 +8,7 @@ use crate::free_surface::conversion::touch;
 use crate::free_surface::ledger::{Sum, VectorSum};
 use crate::lattice::moments::{density_excess, momentum};
 use crate::lattice::{Q, opposite};
+use crate::solver::balance::{Carrying, LinkEnd};
 use crate::solver::books::{CellEntries, Contents, Crossing, Entries};
 use crate::solver::cell::Cell;
 use crate::solver::loads::arm;
@@ -26,8 +27,9 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
 
     /// Books what came in over the links of this step; reads populations after collision and after streaming.
     pub(in crate::solver::plain) fn book_links(&mut self) {
+        let force = self.body_force();
         if let Some((cells, _)) = self.wet() {
-            let entries = cells.link_entries();
+            let entries = cells.link_entries(&force);
             cells.surface.books.enter(&entries, &mut cells.surface.loads);
         }
     }
@@ -50,7 +52,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
 }
 
 impl<P: Physics, S: SurfacePhysics> Wet<'_, P, S> {
-    fn link_entries(&self) -> Entries {
+    fn link_entries(&self, force: &[f64; 3]) -> Entries {
         let surface = &*self.surface;
         let mut entries = Entries::new(surface.loads.len());
         for &cell in &surface.special {
@@ -82,9 +84,34 @@ impl<P: Physics, S: SurfacePhysics> Wet<'_, P, S> {
             own.close(&mut entries);
             if !liquid {
                 entries.from_walls.add(-surface.handed(self.hand_over, cell));
+                if !entries.loads.is_empty() {
+                    self.carry(cell, force, &mut entries);
+                }
             }
         }
         entries
+    }
+
+    /// Loads of an interface cell by balance \[C7\].
+    fn carry(&self, cell: usize, force: &[f64; 3], entries: &mut Entries) {
+        let surface = &*self.surface;
+        let ends = std::array::from_fn(|i| match self.links.source(cell, i) {
+            Source::Wall { body, .. } => LinkEnd::Wall(body),
+            Source::Open => LinkEnd::Open,
+            Source::Cell { cell: from, .. } => {
+                LinkEnd::Cell(surface.kinds[from as usize], surface.fill[from as usize])
+            }
+        });
+        let carrying = Carrying {
+            fill: [surface.fill[cell], surface.mass[cell] / (1.0 + density_excess(&self.f[cell]))],
+            after: &self.post[cell],
+            arrived: &self.f[cell],
+            force: surface.force_at(self.links, cell, force),
+            weight: *force,
+            ends,
+        };
+        let at = self.setup.coordinates(cell);
+        carrying.enter(entries, |i, body| arm(self.setup, at, i, body));
     }
 }
 

@@ -15,6 +15,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
     /// Marks, conversions, refill and excess of one step; then φ of every interface cell.
     pub(in crate::solver::plain) fn convert(&mut self, force: &[f64; 3]) {
         if let Some((mut cells, _)) = self.wet() {
+            cells.surface.accelerate();
             cells.convert_marked(force);
             cells.update_fill();
             cells.surface.remember_velocity();

@@ -3,8 +3,8 @@
 use super::{Surface, SurfacePhysics};
 use crate::boundary::links::{Links, Source};
 use crate::free_surface::Kind;
+use crate::free_surface::contact::{Contact, sent_back};
 use crate::free_surface::conversion::touch;
-use crate::free_surface::normal::outward_beside_walls;
 use crate::free_surface::shares::{dry_share, dry_share_at_wall, even, taken_back, viscous};
 use crate::free_surface::voids::give_up;
 use crate::lattice::moments::density_excess;
@@ -69,7 +69,7 @@ impl<S: SurfacePhysics> Surface<S> {
         let Streamed { links, after, arrived } = *streamed;
         let fill = self.fill[cell];
         let even_at = |at: usize, i: usize| even(i, density_excess(&after[at]), &self.velocity[at]);
-        let mut normal = None;
+        let mut contact = None;
         let mut parts = [0.0; Q];
         for i in 1..Q {
             let out = opposite(i);
@@ -77,9 +77,9 @@ impl<S: SurfacePhysics> Surface<S> {
             parts[i] = match links.source(cell, i) {
                 Source::Open => continue,
                 Source::Wall { .. } => {
-                    let normal = normal.get_or_insert_with(|| self.outward_at(links, cell));
+                    let contact = contact.get_or_insert_with(|| self.contact_at(links, cell));
                     let brought = viscous(arrived[cell][i], after[cell][out], here, here);
-                    self.equations.dry_share_at_wall(dry_share_at_wall(fill, out, normal)) * brought
+                    self.equations.dry_share_at_wall(dry_share_at_wall(fill, out, &contact.along)) * brought
                 }
                 Source::Cell { cell: from, direction } => {
                     let (from, direction) = (from as usize, usize::from(direction));
@@ -95,10 +95,10 @@ impl<S: SurfacePhysics> Surface<S> {
         taken_back(&parts, &self.velocity[cell])
     }
 
-    /// Normal of the surface at a cell; grains count as the cell itself.
-    pub(super) fn outward_at(&self, links: &Links, cell: usize) -> [f64; 3] {
+    /// The surface at a cell beside walls; grains count as the cell itself.
+    pub(in crate::solver::plain) fn contact_at(&self, links: &Links, cell: usize) -> Contact {
         let fill = self.fill[cell];
-        outward_beside_walls(
+        Contact::new(
             fill,
             &std::array::from_fn(|i| match links.source(cell, opposite(i)) {
                 Source::Cell { cell: there, .. } if self.kinds[there as usize] == Kind::Solid => Some(fill),
@@ -106,5 +106,17 @@ impl<S: SurfacePhysics> Surface<S> {
                 Source::Wall { .. } | Source::Open => None,
             }),
         )
+    }
+
+    /// What comes back to an interface cell along −c_out from a wall that returns `wall`, and from the gas before it \[F10\].
+    pub(in crate::solver::plain) fn meet_wall(
+        &self,
+        after: &[Cell],
+        contact: &Contact,
+        (cell, out): (usize, usize),
+        wall: f64,
+    ) -> f64 {
+        let share = self.equations.meeting(contact.meeting(out));
+        sent_back(wall, self.gas_link(after, cell, out), share)
     }
 }

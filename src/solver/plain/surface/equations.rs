@@ -68,6 +68,12 @@ pub trait SurfacePhysics: Clone + Send + Sync + 'static {
         share
     }
 
+    /// w of a link to a wall \[F10\]; `share`: what the method says.
+    #[inline(always)]
+    fn meeting(&self, share: f64) -> f64 {
+        share
+    }
+
     /// Mass that a conversion leaves over \[F4\], see [`excess()`](excess::excess).
     #[inline(always)]
     fn excess(&self, mass: f64, full: f64) -> f64 {

@@ -126,7 +126,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
 impl<S: SurfacePhysics> Surface<S> {
     /// c of an interface cell.
     fn carried_share(&self, links: &Links, cell: usize) -> f64 {
-        carried_among(self.fill[cell], &self.outward_at(links, cell), |i| match links.source(cell, i) {
+        carried_among(self.fill[cell], &self.contact_at(links, cell).along, |i| match links.source(cell, i) {
             Source::Cell { cell: from, .. } => Some(self.kinds[from as usize]),
             Source::Wall { .. } | Source::Open => None,
         })
