@@ -15,6 +15,7 @@ pub mod hydrostatic;
 pub mod ledger;
 pub(crate) mod marks;
 pub mod normal;
+pub mod settle;
 pub(crate) mod shares;
 pub mod voids;
 

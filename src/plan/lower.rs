@@ -5,7 +5,7 @@ use super::facts::Facts;
 use super::initial::initial_flow;
 use crate::boundary::cut::cut_cells;
 use crate::collision::{CollisionChoice, OddRate};
-use crate::free_surface::hydrostatic;
+use crate::free_surface::settle::settle;
 use crate::scene::{
     BodyForce as SceneForce, Boundary, ClampLimits, ExcessChoice, InitialPressure, Motion, Operator,
     PrecisionChoice, RefillChoice, Scene, SolidSurface, SurfaceGravity, SurfaceRules, WallChoice,
@@ -28,7 +28,8 @@ pub(crate) fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
     let settled = scene.fluid.initial.as_ref().is_some_and(|i| i.pressure == InitialPressure::Settled);
     if settled {
         let is_solid = |cell: usize| cells.solids.get(cell).is_some_and(|&s| s != 0);
-        cells.fill = hydrostatic::settle(cells.extents, &cells.fill, is_solid, &setup.force.at(0));
+        let (periodic, force) = (setup.periodic_axes(), setup.force.at(0));
+        cells.fill = settle(cells.extents, periodic, &cells.fill, is_solid, &force);
     }
     setup.initial = initial_flow(facts, units, &cells, &setup.force.at(0));
     if cells.pool.is_some() {

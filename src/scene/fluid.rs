@@ -49,8 +49,8 @@ pub enum InitialPressure {
     /// heavier than what was drawn, by half of 3fHΔt²/(ρΔx²).
     #[default]
     Hydrostatic,
-    /// That of the fluid at rest below a surface that is lowered, column by column, until the mass is what was drawn. For fluid
-    /// that flows out of its reservoir: the thin flow it becomes then has the right volume, whatever the time step.
+    /// That of the fluid at rest below a surface that is lowered until the mass is what was drawn, a level surface as a whole
+    /// and any other column by column. For fluid that flows out of its reservoir: the thin flow it becomes then has the right volume, whatever the time step.
     Settled,
     /// That of the air: for fluid that falls freely from the start.
     Uniform,

@@ -60,6 +60,8 @@ pub enum Mistake {
     LateralStressInFull,
     /// \[F8\] left out.
     VoidsKept,
+    /// \[F10\] left out.
+    WallsMetAtOnce,
     /// 000: excess without a rule.
     ExcessDropped,
     /// The force source without 1 − ω/2.
@@ -259,6 +261,10 @@ impl SurfacePhysics for WrongSurface {
 
     fn dry_share_at_wall(&self, share: f64) -> f64 {
         self.dry_share(share)
+    }
+
+    fn meeting(&self, share: f64) -> f64 {
+        if self.mistake == Mistake::WallsMetAtOnce { 1.0 } else { share }
     }
 
     fn excess(&self, mass: f64, full: f64) -> f64 {

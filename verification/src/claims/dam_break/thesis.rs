@@ -5,7 +5,7 @@ use crate::claims::columns;
 use crate::exact::ExactError;
 use crate::exact::flow_curve::FlowCurve;
 use crate::exact::thin_layer::{Geometry, Snapshot, ThinLayer, setting};
-use lahar::free_surface::hydrostatic;
+use lahar::free_surface::settle::settle;
 use lahar::rheology::Law;
 use lahar::setup::{BodyForce, Face, FreeSurface, Setup, SolidMotion, SurfaceForce, YieldTreatment};
 use lahar::solver::run::{Fields, Run};
@@ -64,7 +64,7 @@ pub struct Grid {
     pub compression: f64,
     /// Force rule in interface cells.
     pub force: SurfaceForce,
-    /// Whether the reservoir starts with the mass that was drawn ([`hydrostatic::settle`]).
+    /// Whether the reservoir starts with the mass that was drawn ([`settle`]).
     pub settled: bool,
 }
 
@@ -140,7 +140,7 @@ impl Case {
         let mut fill: Vec<f64> = fill.collect();
         if grid.settled {
             let is_solid = |cell: usize| setup.is_solid(cell);
-            fill = hydrostatic::settle(setup.extents, &fill, is_solid, &setup.force.at(0));
+            fill = settle(setup.extents, setup.periodic_axes(), &fill, is_solid, &setup.force.at(0));
         }
         let mut surface = FreeSurface::new(fill);
         surface.force = grid.force;

@@ -7,6 +7,7 @@ mod cells;
 mod dam;
 mod drop;
 mod heap;
+mod impact;
 mod loads;
 mod mutants;
 mod pool;
@@ -50,6 +51,8 @@ pub static STUDY: Study = Study {
         symmetry::HALF,
         loads::BUOYANCY,
         loads::WALL,
+        impact::IMPULSE,
+        impact::WETTED,
         waves::SPEED,
         waves::LEVELLING,
         trough::LEVEL,
@@ -67,6 +70,7 @@ pub static STUDY: Study = Study {
         mutants::MEAN_FILLS,
         mutants::LATERAL_STRESS,
         mutants::VOIDS_KEPT,
+        mutants::WALLS_MET_AT_ONCE,
     ],
     limits: &[
         "Waves on a film level at rates that depend on where the surface lies within a cell: +2 to −4 % on 8 cells.",

@@ -82,3 +82,13 @@ pub const VOIDS_KEPT: Mutant = Mutant {
     rung: Some(12.0),
     subject: Subject::Backend(|| Box::new(Mistaken(Mistake::VoidsKept))),
 };
+
+/// Bounce-back from the first drop on the wall.
+pub const WALLS_MET_AT_ONCE: Mutant = Mutant {
+    id: "walls-met-at-once",
+    erratum: "F10",
+    description: "Walls send back all that leaves a partly filled cell that meets them face on.",
+    caught_by: "impact-wets-the-wall",
+    rung: Some(20.0),
+    subject: Subject::Backend(|| Box::new(Mistaken(Mistake::WallsMetAtOnce))),
+};
