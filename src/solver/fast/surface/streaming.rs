@@ -40,11 +40,9 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         let local = usize::from(cell.local);
         let own = after(self.task, self.number, local);
         let here = self.here(cell, &own);
-        let (rho, fill) = (1.0 + here.d_rho, here.fill);
         let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
         let (mut arrived, mut gained, mut apart) = (own, [0.0; Q], [0.0; Q]);
-        let (mut touches, mut contact) = (0, None);
-        let mut booked = CellEntries::default();
+        let (mut touches, mut contact, mut booked) = (0, None, CellEntries::default());
         for i in 1..Q {
             let out = opposite(i);
             let link = links.next_if(|link| usize::from(link.direction) == i);
@@ -53,27 +51,24 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                 End::Wall { velocity, body, link } => {
                     touches |= touch::WALL;
                     let u = &self.task.velocities[velocity as usize];
-                    let back = wall_link(self.task, self.number, self.rim, link, rho, u, body);
-                    let contact = contact.get_or_insert_with(|| self.contact(local, fill));
-                    let gas = gas_link(own[out], out, &cell.velocity);
-                    arrived[i] = sent_back(back, gas, contact.meeting(out));
-                    apart[i] = here.dry_at_wall(out, arrived[i], &contact.along);
+                    let contact = contact.get_or_insert_with(|| self.contact(local, here.fill));
+                    [arrived[i], apart[i]] = self.sent_by_wall(&here, contact, link, u, body);
                     Source::Wall { velocity: *u, body }
                 }
                 End::Open(link) => {
                     arrived[i] = open_link(self.task, self.number, self.rim, link);
-                    gained[i] = fill * (arrived[i] - own[out]);
+                    gained[i] = here.fill * (arrived[i] - own[out]);
                     Source::Open
                 }
                 End::Cell { number, local, direction } => {
                     let kind = self.kind(number, local);
-                    gas = !kind.is_fluid();
                     if kind == Kind::Solid {
                         // Covered by a grain: what its surface returns has been put there, and booked.
                         touches |= touch::WALL;
                         arrived[i] = self.sent(number, local, direction);
                         continue;
                     }
+                    gas = !kind.is_fluid();
                     if gas {
                         touches |= touch::GAS;
                         arrived[i] = gas_link(own[out], out, &cell.velocity);
@@ -89,22 +84,38 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                 }
             };
             let arm = self.task.arm(self.number, local, i, &source);
-            let (leaving, arrived) = (own[out], arrived[i]);
-            let crossing = Crossing { i, leaving, arrived, share: fill, liquid: false, arm };
+            let [leaving, arrived] = [own[out], arrived[i]];
+            let crossing = Crossing { i, leaving, arrived, share: here.fill, liquid: false, arm };
             booked.link(&crossing, &source, gas, entries);
         }
         booked.close(entries);
         cell.rho = 1.0 + density_excess(&arrived);
-        cell.mass += density_excess(&gained) - self.handed(local, fill, entries);
-        if contact.is_some() && !entries.loads.is_empty() {
+        cell.mass += density_excess(&gained) - self.handed(local, here.fill, entries);
+        if contact.is_some() {
             self.carry(cell, &own, &arrived, entries);
         }
         (cell.f, cell.touches, cell.dry) = (arrived, touches, taken_back(&apart, &cell.velocity));
     }
 
+    /// What comes back along a link to a wall \[F10\], and its dry viscous momentum \[F9\].
+    fn sent_by_wall(
+        &self,
+        here: &Here,
+        contact: &Contact,
+        link: &Link,
+        velocity: &[f64; 3],
+        body: u8,
+    ) -> [f64; 2] {
+        let out = opposite(usize::from(link.direction));
+        let wall = wall_link(self.task, self.number, self.rim, link, 1.0 + here.d_rho, velocity, body);
+        let gas = gas_link(here.own[out], out, &here.u);
+        let arrived = sent_back(wall, gas, contact.meeting(out));
+        [arrived, here.dry_at_wall(out, arrived, &contact.along)]
+    }
+
     /// Loads of an interface cell by balance \[C7\]; `arrived`: its populations after streaming.
     fn carry(&self, cell: &InterfaceCell, own: &[f64; Q], arrived: &[f64; Q], entries: &mut Entries) {
-        let Some(surface) = &self.task.surface else { return };
+        let Some(surface) = self.task.surface.as_ref().filter(|_| !entries.loads.is_empty()) else { return };
         let local = usize::from(cell.local);
         let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
         let ends = std::array::from_fn(|i| {
@@ -132,12 +143,12 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
     }
 
     /// What a cell exchanges with.
-    fn here<'c>(&self, cell: &'c InterfaceCell, own: &'c [f64; Q]) -> Here<'c> {
+    fn here<'c>(&self, cell: &InterfaceCell, own: &'c [f64; Q]) -> Here<'c> {
         let local = usize::from(cell.local);
         // An interface cell's own φ; that of a liquid neighbour is not used.
         let fill = self.surface.fill[self.number][local];
         let (.., carried) = flow_at(&self.surface.flow[self.number], local);
-        Here { own, d_rho: density_excess(own), fill, carried, u: &cell.velocity }
+        Here { own, d_rho: density_excess(own), fill, carried, u: cell.velocity }
     }
 
     /// Mass and dry viscous momentum of a link from a fluid cell. `directions`: towards it, and of what it sends.
@@ -154,7 +165,7 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         if kind == Kind::Interface {
             let (there, u, carried) = flow_at(&self.surface.flow[number as usize], local);
             shares = [here.carried, carried];
-            let ends = [even(direction, there, &u), even(out, here.d_rho, here.u)];
+            let ends = [even(direction, there, &u), even(out, here.d_rho, &here.u)];
             apart = dry_share(here.fill, other) * viscous(arrived, here.own[out], ends[0], ends[1]);
         }
         [link_mass(wetted_share(kind, shares[0], shares[1]), arrived, here.own[out]), apart]
@@ -304,13 +315,13 @@ struct Here<'a> {
     fill: f64,
     /// c \[F1\].
     carried: f64,
-    u: &'a [f64; 3],
+    u: [f64; 3],
 }
 
 impl Here<'_> {
     /// Dry viscous momentum of a link to a wall \[F9\].
     fn dry_at_wall(&self, out: usize, arrived: f64, normal: &[f64; 3]) -> f64 {
-        let even = even(out, self.d_rho, self.u);
+        let even = even(out, self.d_rho, &self.u);
         dry_share_at_wall(self.fill, out, normal) * viscous(arrived, self.own[out], even, even)
     }
 }
