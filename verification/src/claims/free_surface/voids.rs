@@ -55,11 +55,10 @@ pub const CLOSE: Claim = Claim {
     ladder: Ladder { parameter: "h (cells)", short: &[8.0, 12.0], full: &[8.0, 12.0, 16.0, 24.0] },
     order: None,
     tolerance: Tolerance {
-        value: 2.0,
+        value: 1.0,
         at: Rung::Every,
         basis: Basis::AfterSeeing,
-        because: "the toe buries a cell on the floor before that is full, one at a time; 0.3 % of the volume, the aim, from \
-                  24 cells on",
+        because: "the toe buries a cell on the floor before that is full, one at a time, 0.5 and 0.7 of a cell on 8 and 12",
     },
     kind: Kind::Verification,
     measure: share,
