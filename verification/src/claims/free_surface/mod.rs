@@ -75,7 +75,7 @@ pub static STUDY: Study = Study {
     limits: &[
         "Waves on a film level at rates that depend on where the surface lies within a cell: +2 to −4 % on 8 cells.",
         "Partly filled cells keep the inertia of full ones: unsteady shear below a surface is off by (1 − φ) of a cell over \
-         the depth.",
+         the depth, and a block of 10 cells that hits a wall gives it 8 % too much (3 % with force by fill and inertia).",
         "In a pool whose surface is oblique to the grid a current of order F/mu remains, up to 1.5e-4 of √(gH) at \
          τ = 1.1 (10 degrees) and 5e-4 at τ = 0.56: above the aim of 1e-4. It does not grow. In Bingham fluid it is \
          below 1e-5.",
