@@ -83,6 +83,8 @@
 //! | C7 | load on fixed solids | `solver/books.rs` | `wall-hydrostatic-load` |
 
 #![deny(missing_docs)]
+// These end the program when nobody reads; `output::terminal` does not.
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 pub mod bench;
 pub mod boundary;

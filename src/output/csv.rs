@@ -1,6 +1,5 @@
 //! Time series as comma-separated text, units in the header.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use super::{OutputError, atomic};
@@ -49,17 +48,19 @@ impl Series {
     /// the same bits.
     #[must_use]
     pub(crate) fn to_text(&self) -> String {
+        self.rows.iter().fold(self.head(), |text, row| text + &Self::line(row))
+    }
+
+    /// The first line of the text.
+    pub(crate) fn head(&self) -> String {
         let header: Vec<String> = self.columns.iter().map(|c| format!("{} [{}]", c.name, c.unit)).collect();
-        let mut out = header.join(",");
-        out.push('\n');
-        for row in &self.rows {
-            for (k, x) in row.iter().enumerate() {
-                let comma = if k == 0 { "" } else { "," };
-                let _ = write!(out, "{comma}{}", number(*x));
-            }
-            out.push('\n');
-        }
-        out
+        header.join(",") + "\n"
+    }
+
+    /// The line of a row.
+    pub(crate) fn line(row: &[f64]) -> String {
+        let numbers: Vec<String> = row.iter().map(|x| number(*x)).collect();
+        numbers.join(",") + "\n"
     }
 
     /// Writes the table.

@@ -1,5 +1,6 @@
 //! The one loop of all runs: step until something is due, look, write, see whether it is over.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use super::error::RunError;
@@ -75,7 +76,7 @@ pub(super) trait Experiment {
     ///
     /// # Errors
     /// I/O.
-    fn write_fields(&mut self, recorder: &Recorder) -> Result<(), OutputError>;
+    fn write_fields(&mut self) -> Result<(), OutputError>;
 
     /// Writes grains, contacts and walls.
     ///
@@ -115,6 +116,20 @@ pub(super) struct Order {
     pub schedule: Schedule,
 }
 
+/// What a run tells people, and what they tell it.
+#[derive(Clone, Copy)]
+pub(super) struct Outside<'a> {
+    pub progress: &'a Progress,
+    /// Ends the run when it becomes true.
+    pub interrupt: Option<&'a AtomicBool>,
+}
+
+impl Outside<'_> {
+    fn interrupted(&self) -> bool {
+        self.interrupt.is_some_and(|asked| asked.load(Ordering::Relaxed))
+    }
+}
+
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finished {
@@ -137,17 +152,19 @@ pub struct Finished {
 /// Drives a run to its end and writes its outputs.
 ///
 /// # Errors
-/// A guard stops the run (what was written before stays), or a file cannot be written.
+/// A guard stops the run, or a file cannot be written. Either leaves behind what can be.
 pub(super) fn drive(
     experiment: &mut dyn Experiment,
     recorder: &mut Recorder,
     order: Order,
-    progress: &Progress,
+    outside: Outside<'_>,
 ) -> Result<Finished, RunError> {
     let rest = order.cadences.arrested.map(RestWatch::new);
-    let mut driver = Driver { experiment, recorder, order, progress, stepping: 0.0, updates: 0.0, rest };
+    let written = Written::default();
+    let mut driver =
+        Driver { experiment, recorder, order, outside, stepping: 0.0, updates: 0.0, rest, written };
     let result = driver.drive();
-    progress.finish();
+    outside.progress.finish();
     result
 }
 
@@ -155,41 +172,60 @@ struct Driver<'a> {
     experiment: &'a mut dyn Experiment,
     recorder: &'a mut Recorder,
     order: Order,
-    progress: &'a Progress,
+    outside: Outside<'a>,
     /// Wall-clock time of the stepping, s.
     stepping: f64,
     /// Updates so far; the number of fluid cells changes with a free surface.
     updates: f64,
     /// Looks for rest, where the scene asks for it.
     rest: Option<RestWatch>,
+    written: Written,
+}
+
+/// The step of what was written last, so that nothing is written twice.
+#[derive(Default)]
+struct Written {
+    row: Option<u64>,
+    fields: Option<u64>,
+    grains: Option<u64>,
 }
 
 impl Driver<'_> {
     fn drive(&mut self) -> Result<Finished, RunError> {
+        self.summary(&self.finished(Ended::Running), None)?;
+        let ended = match self.to_the_end() {
+            Ok(ended) => ended,
+            Err(RunError::Output(error)) => return Err(self.output_failed(error)),
+            Err(other) => return Err(other),
+        };
+        let finished = self.finished(ended);
+        self.summary(&finished, None)?;
+        self.experiment.finish(self.recorder)?;
+        self.recorder.folder().sync()?;
+        Ok(finished)
+    }
+
+    /// Steps and outputs, those of the end too but for tables and pictures.
+    fn to_the_end(&mut self) -> Result<Ended, RunError> {
         self.row()?;
-        self.experiment.write_fields(self.recorder)?;
-        self.recorder.write_series()?;
-        self.experiment.write_grains()?;
-        let ended = loop {
+        self.fields()?;
+        self.grains()?;
+        self.recorder.folder().sync()?;
+        loop {
             let due = self.order.schedule.next(self.experiment.step());
             self.advance(due.min(self.experiment.next_look()))?;
             self.experiment.look();
             let ended = self.ended();
             self.outputs(ended.is_some())?;
             if let Some(ended) = ended {
-                break ended;
+                return Ok(ended);
             }
-        };
-        self.recorder.write_series()?;
-        self.experiment.finish(self.recorder)?;
-        let finished = self.finished(ended);
-        self.summary(&finished, None)?;
-        Ok(finished)
+        }
     }
 
     /// Steps up to `due` in strides, so that the bar moves.
     fn advance(&mut self, due: u64) -> Result<(), RunError> {
-        while self.experiment.step() < due && !self.experiment.is_empty() {
+        while self.experiment.step() < due && !self.experiment.is_empty() && !self.outside.interrupted() {
             let (from, size) = (self.experiment.step(), self.experiment.size());
             let clock = Instant::now();
             let result = self.experiment.advance(self.experiment.stride().min(due - from));
@@ -197,22 +233,39 @@ impl Driver<'_> {
             // The mean of before and after.
             let taken = (self.experiment.step() - from) as f64;
             self.updates += 0.5 * (size + self.experiment.size()) as f64 * taken;
-            self.progress.set(self.experiment.step());
+            self.outside.progress.set(self.experiment.step());
             if let Err(report) = result {
-                return Err(self.stopped(report)?);
+                return Err(self.stopped(report));
             }
             self.experiment.tidy();
         }
         Ok(())
     }
 
-    /// Writes what there is.
-    fn stopped(&mut self, report: Box<StopReport>) -> Result<RunError, RunError> {
+    /// Writes what there is after a guard stopped the run. What cannot be written is said; the guard's reason is what the run
+    /// ends with.
+    fn stopped(&mut self, report: Box<StopReport>) -> RunError {
         self.experiment.look();
-        self.recorder.write_series()?;
         let finished = self.finished(Ended::Stopped);
-        self.summary(&finished, Some(report.to_string()))?;
-        Ok(RunError::Stopped(report))
+        // The summary first: it is small, and says most.
+        let summary = self.summary(&finished, Some(report.to_string()));
+        for result in [summary, self.outputs(true), self.experiment.finish(self.recorder)] {
+            if let Err(error) = result {
+                self.outside.progress.note(&format!("warning: {error}"));
+            }
+        }
+        // The disk has what it could take.
+        let _ = self.recorder.folder().sync();
+        RunError::Stopped(report)
+    }
+
+    /// Writes what may still fit after a file could not be written: rows that are missing, and a summary.
+    fn output_failed(&mut self, error: OutputError) -> RunError {
+        let finished = self.finished(Ended::OutputFailed);
+        // Where these cannot be written either, the first error is the one that people are told.
+        let _ = self.recorder.write_series();
+        let _ = self.summary(&finished, Some(error.to_string()));
+        RunError::Output(error)
     }
 
     /// Whether the run is over, and why.
@@ -226,8 +279,10 @@ impl Driver<'_> {
             Some(Ended::AtRest)
         } else if self.experiment.is_empty() {
             Some(Ended::Empty)
+        } else if now >= self.order.schedule.end {
+            Some(Ended::EndTime)
         } else {
-            (now >= self.order.schedule.end).then_some(Ended::EndTime)
+            self.outside.interrupted().then_some(Ended::Interrupted)
         }
     }
 
@@ -239,26 +294,42 @@ impl Driver<'_> {
     }
 
     /// Writes what is due; `last`: everything.
-    fn outputs(&mut self, last: bool) -> Result<(), RunError> {
+    fn outputs(&mut self, last: bool) -> Result<(), OutputError> {
         let now = self.experiment.step();
         if self.order.schedule.series.take_if_due(now) || last {
             self.row()?;
         }
         let due = self.order.schedule.take_files(now, last);
         if due.files {
-            self.experiment.write_fields(self.recorder)?;
-            self.recorder.write_series()?;
-            self.progress.note(&self.line());
+            self.fields()?;
+            self.outside.progress.note(&self.line());
         }
         if due.grains {
-            self.experiment.write_grains()?;
+            self.grains()?;
         }
-        Ok(())
+        if due.files || due.grains { self.recorder.folder().sync() } else { Ok(()) }
     }
 
-    fn row(&mut self) -> Result<(), RunError> {
+    fn row(&mut self) -> Result<(), OutputError> {
+        if self.written.row.replace(self.experiment.step()) == Some(self.experiment.step()) {
+            return Ok(());
+        }
         let row = self.experiment.row();
-        Ok(self.recorder.row(self.experiment.time_s(), &row)?)
+        self.recorder.row(self.experiment.time_s(), &row)
+    }
+
+    fn fields(&mut self) -> Result<(), OutputError> {
+        if self.written.fields.replace(self.experiment.step()) == Some(self.experiment.step()) {
+            return Ok(());
+        }
+        self.experiment.write_fields()
+    }
+
+    fn grains(&mut self) -> Result<(), OutputError> {
+        if self.written.grains.replace(self.experiment.step()) == Some(self.experiment.step()) {
+            return Ok(());
+        }
+        self.experiment.write_grains()
     }
 
     fn line(&self) -> String {
@@ -305,6 +376,6 @@ impl Driver<'_> {
             loads: self.experiment.loads(),
             stopped,
         };
-        summary.write(&self.recorder.path("summary.json"))
+        summary.write(&self.recorder.folder().file("summary.json")?)
     }
 }

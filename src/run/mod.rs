@@ -6,35 +6,44 @@
 mod driver;
 mod error;
 mod fluid;
+mod folder;
 mod grains;
+mod interrupt;
 pub mod load_summary;
 mod measure;
+mod papers;
 mod recorder;
 pub mod rest;
 mod schedule;
+mod series_plots;
 mod stop;
 pub mod summary;
 mod view;
 
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 pub use driver::Finished;
 pub use error::RunError;
 pub use grains::books::fingerprint;
+pub use interrupt::Interrupt;
 pub use load_summary::{LoadInstant, LoadPeaks, LoadSummary};
 pub use rest::RestOutcome;
 pub use stop::{StopPlace, StopReport};
 pub use summary::{Ended, Summary};
 
 use crate::output::progress::Progress;
+use crate::output::terminal::say;
 use crate::plan::grains::GrainPlan;
 use crate::plan::{Plan, Planned};
 use crate::scene::Scene;
 use crate::scene::dry::DryScene;
 use crate::solver::run::Backend;
 use crate::units::Units;
-use driver::Order;
+use driver::{Order, Outside};
 use fluid::Flow;
+use folder::Folder;
 use grains::Dry;
 use recorder::Recorder;
 use schedule::{Cadences, Schedule, steps_until};
@@ -42,8 +51,10 @@ use schedule::{Cadences, Schedule, steps_until};
 /// How to run.
 #[derive(Clone)]
 pub struct Options<'a> {
-    /// Output folder; created when missing.
+    /// Output folder; created when missing. Files of an earlier run are removed.
     pub out: PathBuf,
+    /// Refuse a folder with an earlier run instead.
+    pub keep: bool,
     /// The solver of the fluid; of no effect without one.
     pub backend: &'a dyn Backend,
     /// Worker threads, at least 1; results do not depend on it.
@@ -52,14 +63,30 @@ pub struct Options<'a> {
     pub until_s: Option<f64>,
     /// Print nothing.
     pub quiet: bool,
+    /// Ends the run after the steps under way, with all its files, when it becomes true.
+    pub interrupt: Option<&'a AtomicBool>,
+}
+
+impl<'a> Options<'a> {
+    /// On one thread, to the scene's end time, quietly.
+    #[must_use]
+    pub fn new(out: PathBuf, backend: &'a dyn Backend) -> Self {
+        Self { out, keep: false, backend, threads: 1, until_s: None, quiet: true, interrupt: None }
+    }
 }
 
 /// Runs a scene and writes its outputs.
 ///
 /// # Errors
-/// The backend refuses the set-up, a guard stops the run (what was written before stays), or a file cannot be written.
+/// The folder cannot be used, the backend refuses the set-up, a guard stops the run (what was written stays), or a file cannot
+/// be written.
 pub fn run(planned: &Planned, options: &Options<'_>) -> Result<Finished, RunError> {
-    let mut recorder = Recorder::new(&options.out)?;
+    let (folder, removed) = Folder::claim(&options.out, options.keep, Some(&papers::source(planned)))?;
+    if removed > 0 && !options.quiet {
+        say(&format!("note: removed {removed} files of an earlier run from {}", options.out.display()));
+    }
+    papers::write(planned, &folder)?;
+    let mut recorder = Recorder::new(Arc::new(folder));
     match planned {
         Planned::Flow(scene, plan) => flow(scene, plan, options, &mut recorder),
         Planned::Dry(scene, plan) => {
@@ -89,7 +116,7 @@ fn flow(
     let mut flow = Flow::start(scene, plan, options.backend, threads, recorder)?;
     flow.watch(end);
     let progress = Progress::new(&plan.numbers.title, end, options.quiet);
-    driver::drive(&mut flow, recorder, order, &progress)
+    driver::drive(&mut flow, recorder, order, Outside { progress: &progress, interrupt: options.interrupt })
 }
 
 fn dry(
@@ -112,5 +139,5 @@ fn dry(
     };
     let mut dry = Dry::start(scene, plan, recorder)?;
     let progress = Progress::new(&plan.numbers.title, end, options.quiet);
-    driver::drive(&mut dry, recorder, order, &progress)
+    driver::drive(&mut dry, recorder, order, Outside { progress: &progress, interrupt: options.interrupt })
 }

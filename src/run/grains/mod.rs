@@ -7,6 +7,8 @@ pub(super) mod population;
 mod stop;
 mod walls;
 
+use std::sync::Arc;
+
 use super::driver::Experiment;
 use super::error::RunError;
 use super::load_summary::LoadSummary;
@@ -17,6 +19,7 @@ use super::measure::rest::{self, Pace};
 use super::measure::{Probes, State};
 use super::recorder::Recorder;
 use super::schedule::between_rows;
+use super::series_plots;
 use super::stop::StopReport;
 use super::summary::Parts;
 use super::view::View;
@@ -67,7 +70,7 @@ impl<'a> Dry<'a> {
             population: Population::new(plan, size_m, &dem),
             probes,
             loads,
-            files: Files::new(plan, size_m, &recorder.path("")),
+            files: Files::new(plan, size_m, Arc::clone(recorder.folder())),
             scene,
             plan,
             dem,
@@ -147,7 +150,7 @@ impl Experiment for Dry<'_> {
         self.probes.row(&State { fluid: None, grains: Some(grains), contacts: None })
     }
 
-    fn write_fields(&mut self, _: &Recorder) -> Result<(), OutputError> {
+    fn write_fields(&mut self) -> Result<(), OutputError> {
         Ok(())
     }
 
@@ -158,8 +161,8 @@ impl Experiment for Dry<'_> {
     fn finish(&self, recorder: &Recorder) -> Result<(), OutputError> {
         let view = self.view();
         self.files.tables(&view)?;
-        pictures::plots(recorder, &self.probes, &self.plan.numbers.title)?;
-        pictures::picture(&recorder.path("plots"), self.plan, self.scene.domain.size_m, &view)
+        series_plots::draw(recorder, &self.probes, &self.plan.numbers.title)?;
+        pictures::picture(recorder, self.plan, self.scene.domain.size_m, &view)
     }
 
     fn loads(&self) -> Vec<LoadSummary> {

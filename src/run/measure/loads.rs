@@ -64,7 +64,7 @@ impl Loads {
                 windowed: Peaks::default(),
             })
         };
-        Self { list: probes.iter().filter_map(|(probe, _)| gauge(probe)).collect(), step_s }
+        Self { list: probes.iter().filter_map(|listed| gauge(&listed.probe)).collect(), step_s }
     }
 
     /// Whether there are any.
