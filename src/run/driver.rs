@@ -193,7 +193,7 @@ struct Written {
 impl Driver<'_> {
     fn drive(&mut self) -> Result<Finished, RunError> {
         self.summary(&self.finished(Ended::Running), None)?;
-        let ended = match self.to_the_end() {
+        let ended = match self.reach_end() {
             Ok(ended) => ended,
             Err(RunError::Output(error)) => return Err(self.output_failed(error)),
             Err(other) => return Err(other),
@@ -206,7 +206,7 @@ impl Driver<'_> {
     }
 
     /// Steps and outputs, those of the end too but for tables and pictures.
-    fn to_the_end(&mut self) -> Result<Ended, RunError> {
+    fn reach_end(&mut self) -> Result<Ended, RunError> {
         self.row()?;
         self.fields()?;
         self.grains()?;
