@@ -13,7 +13,7 @@ use lahar::output::OutputError;
 use lahar::output::terminal::{print, say};
 use lahar::plan::target::Target;
 use lahar::plan::{Layout, PlanError, Planned};
-use lahar::run::{Ended, Finished, Interrupt, Options, RunError};
+use lahar::run::{Ended, Every, Finished, Interrupt, Options, RunError};
 use lahar::scene::{self, SceneError, SceneProblem};
 use lahar::solver::choose::{Best, only_plain};
 use lahar::solver::plain::Plain;
@@ -48,6 +48,12 @@ enum Command {
         /// Refuse a folder with an earlier run instead.
         #[arg(long)]
         keep: bool,
+        /// Write the state into the output folder, to go on from: `10min`, `90s`, `2h` or `5000steps` after the last time.
+        #[arg(long, value_name = "INTERVAL", allow_hyphen_values = true)]
+        checkpoint_every: Option<Every>,
+        /// Go on from the last state in this output folder.
+        #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "keep"])]
+        resume: Option<PathBuf>,
         /// Solver.
         #[arg(long, value_enum, default_value = "fast")]
         backend: BackendName,
@@ -153,6 +159,7 @@ impl Failure {
             Self::Scene(_) | Self::Plan(_) | Self::NoTarget(_) => BAD_INPUT,
             Self::Run(error) => match error {
                 RunError::Start(_) | RunError::Kept { .. } | RunError::Stranger { .. } => BAD_INPUT,
+                RunError::Checkpoint { .. } => BAD_INPUT,
                 RunError::Stopped(_) => STOPPED,
                 RunError::Threads(_) | RunError::Folder { .. } | RunError::InUse { .. } => IO,
                 RunError::Output(_) => IO,
@@ -176,8 +183,12 @@ fn main() -> ExitCode {
     // clap prints its own message and leaves with 2 when the command line is wrong.
     let cli = Cli::parse();
     let result = match cli.command {
-        Command::Run { scene, out, keep, backend, threads, until, quiet } => {
-            run(&scene, &RunArguments { out, keep, backend, threads, until_s: until, quiet })
+        Command::Run { scene, out, keep, checkpoint_every, resume, backend, threads, until, quiet } => {
+            let until_s = until;
+            run(
+                &scene,
+                &RunArguments { out, keep, checkpoint_every, resume, backend, threads, until_s, quiet },
+            )
         }
         Command::Plan { scene, json, backend, target_error } => plan(&scene, json, backend, target_error),
         Command::Bench { json, quick, threads, only } => {
@@ -200,6 +211,8 @@ fn main() -> ExitCode {
 struct RunArguments {
     out: Option<PathBuf>,
     keep: bool,
+    checkpoint_every: Option<Every>,
+    resume: Option<PathBuf>,
     backend: BackendName,
     threads: Option<u16>,
     until_s: Option<f64>,
@@ -207,9 +220,10 @@ struct RunArguments {
 }
 
 fn run(path: &Path, arguments: &RunArguments) -> Result<ExitCode, Failure> {
-    let &RunArguments { ref out, keep, backend, threads, until_s, quiet } = arguments;
+    let &RunArguments { ref out, keep, checkpoint_every, ref resume, backend, threads, until_s, quiet } =
+        arguments;
     let planned = Planned::new(scene::load(path)?, backend.layout())?;
-    let out = out.clone().unwrap_or_else(|| default_folder(planned.file()));
+    let out = resume.clone().or(out.clone()).unwrap_or_else(|| default_folder(planned.file()));
     if !quiet {
         say(&planned.headline());
         if let (BackendName::Fast, Planned::Flow(_, plan)) = (backend, &planned)
@@ -228,12 +242,17 @@ fn run(path: &Path, arguments: &RunArguments) -> Result<ExitCode, Failure> {
         until_s,
         quiet,
         interrupt: Some(signals.flag()),
+        checkpoint_every,
+        resume: resume.is_some(),
         ..Options::new(out, backend.backend())
     };
     let finished = lahar::run::run(&planned, &options)?;
     if !quiet {
         say(&done(&planned, &finished));
         say(&format!("results in {}", options.out.display()));
+        if finished.ended == Ended::Interrupted && checkpoint_every.is_some() {
+            say(&format!("go on with --resume {}", options.out.display()));
+        }
     }
     Ok(match finished.ended {
         Ended::Interrupted => ExitCode::from(signals.exit_code()),

@@ -32,6 +32,25 @@ pub(crate) fn write_with(
     path: &Path,
     content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), OutputError> {
+    write_file(path, content, cfg!(not(target_os = "linux")))
+}
+
+/// As [`write_with`], and the new file is on the disk before the old one is replaced, even when the machine fails.
+///
+/// # Errors
+/// As [`write()`].
+pub(crate) fn write_to_disk(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    write_file(path, content, true)
+}
+
+fn write_file(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    flushed: bool,
+) -> Result<(), OutputError> {
     let io = |doing| {
         let path = path.to_path_buf();
         move |source| OutputError::Io { path, doing, source }
@@ -40,7 +59,7 @@ pub(crate) fn write_with(
         fs::create_dir_all(folder).map_err(io("create the folder of"))?;
     }
     let temporary = temporary_name(path);
-    let outcome = write_and_rename(&temporary, path, content);
+    let outcome = write_and_rename(&temporary, path, content, flushed);
     if outcome.is_err() {
         // The first error is the one worth reporting; a leftover file is only untidy.
         let _ = fs::remove_file(&temporary);
@@ -78,12 +97,14 @@ fn write_and_rename(
     temporary: &Path,
     path: &Path,
     content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    flushed: bool,
 ) -> io::Result<()> {
     let mut buffered = BufWriter::new(File::create(temporary)?);
     content(&mut buffered)?;
     let file = buffered.into_inner().map_err(io::IntoInnerError::into_error)?;
-    #[cfg(not(target_os = "linux"))]
-    file.sync_all()?;
+    if flushed {
+        file.sync_all()?;
+    }
     drop(file);
     fs::rename(temporary, path)
 }

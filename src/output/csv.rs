@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use super::{OutputError, atomic};
+use crate::state::state;
 
 /// One column: what it holds and in which unit (`-` if none).
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Column {
     /// What it holds: `front`.
     pub name: String,
@@ -21,6 +22,9 @@ pub struct Series {
     /// The rows.
     pub rows: Vec<Vec<f64>>,
 }
+
+state!(Column: name unit);
+state!(Series: columns rows);
 
 impl Series {
     /// An empty table with columns given as (name, unit).

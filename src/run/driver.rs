@@ -3,102 +3,18 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use super::checkpoint::{Due, Every, Kept, Labels};
 use super::error::RunError;
-use super::load_summary::LoadSummary;
-use super::measure::quantity::Quantity;
-use super::measure::rest::Pace;
+use super::experiment::Experiment;
 use super::recorder::Recorder;
 use super::rest::{RestOutcome, RestWatch};
 use super::schedule::{Cadences, Schedule};
 use super::stop::StopReport;
-use super::summary::{Ended, Parts, Summary};
+use super::summary::{Ended, Summary};
 use crate::output::OutputError;
 use crate::output::progress::Progress;
-use crate::scene::RestMeasure;
 use crate::solver::steady::SteadyOutcome;
-
-/// What a run moves: a fluid, grains, or both.
-pub(super) trait Experiment {
-    /// Steps taken so far.
-    fn step(&self) -> u64;
-
-    /// Time since the start, s.
-    fn time_s(&self) -> f64;
-
-    /// Duration of a step, s.
-    fn step_s(&self) -> f64;
-
-    /// Cells or spheres that a step updates now.
-    fn size(&self) -> u64;
-
-    /// Most steps to be taken before the next [`Self::tidy`].
-    fn stride(&self) -> u64;
-
-    /// Takes steps.
-    ///
-    /// # Errors
-    /// A guard stopped the run.
-    fn advance(&mut self, steps: u64) -> Result<(), Box<StopReport>>;
-
-    /// What has to be done between strides: take out grains that have left, add up forces.
-    fn tidy(&mut self) {}
-
-    /// Whether there is nothing left to be moved.
-    fn is_empty(&self) -> bool {
-        false
-    }
-
-    /// Prepares the state to be measured, after steps were taken.
-    fn look(&mut self) {}
-
-    /// Step at which the next look for steadiness is due; never where none was asked for.
-    fn next_look(&self) -> u64 {
-        u64::MAX
-    }
-
-    /// Looks, if that is due, whether the flow is steady.
-    fn is_steady(&mut self) -> bool {
-        false
-    }
-
-    /// What the looks found; `None` where none were asked for.
-    fn steadiness(&self) -> Option<SteadyOutcome> {
-        None
-    }
-
-    /// How fast everything is, for being at rest.
-    fn pace(&self, measure: RestMeasure) -> Pace;
-
-    /// What every probe says now; means begin anew.
-    fn row(&mut self) -> Vec<(String, Vec<Quantity>)>;
-
-    /// Writes fields, surfaces, profiles and maps.
-    ///
-    /// # Errors
-    /// I/O.
-    fn write_fields(&mut self) -> Result<(), OutputError>;
-
-    /// Writes grains, contacts and walls.
-    ///
-    /// # Errors
-    /// I/O.
-    fn write_grains(&mut self) -> Result<(), OutputError>;
-
-    /// Writes tables and pictures at the end.
-    ///
-    /// # Errors
-    /// I/O.
-    fn finish(&self, recorder: &Recorder) -> Result<(), OutputError>;
-
-    /// What the loads on solids and walls have been so far.
-    fn loads(&self) -> Vec<LoadSummary>;
-
-    /// What people are told about the state.
-    fn line(&self) -> String;
-
-    /// The state in numbers.
-    fn parts(&self) -> Parts;
-}
+use crate::state::{State, StateError, Tape, part, state};
 
 /// What is known of a run before it starts.
 pub(super) struct Order {
@@ -114,6 +30,8 @@ pub(super) struct Order {
     pub cadences: Cadences,
     /// Those that are due, and the last step.
     pub schedule: Schedule,
+    /// What checkpoints of the run say about it.
+    pub labels: Labels,
 }
 
 /// What a run tells people, and what they tell it.
@@ -122,6 +40,10 @@ pub(super) struct Outside<'a> {
     pub progress: &'a Progress,
     /// Ends the run when it becomes true.
     pub interrupt: Option<&'a AtomicBool>,
+    /// How often checkpoints are due; `None` for never.
+    pub checkpoints: Option<Every>,
+    /// The checkpoint to go on from.
+    pub resumed: Option<&'a Kept>,
 }
 
 impl Outside<'_> {
@@ -160,9 +82,9 @@ pub(super) fn drive(
     outside: Outside<'_>,
 ) -> Result<Finished, RunError> {
     let rest = order.cadences.arrested.map(RestWatch::new);
-    let written = Written::default();
+    let (written, due) = (Written::default(), Due::new(outside.checkpoints));
     let mut driver =
-        Driver { experiment, recorder, order, outside, stepping: 0.0, updates: 0.0, rest, written };
+        Driver { experiment, recorder, order, outside, stepping: 0.0, updates: 0.0, rest, written, due };
     let result = driver.drive();
     outside.progress.finish();
     result
@@ -180,6 +102,7 @@ struct Driver<'a> {
     /// Looks for rest, where the scene asks for it.
     rest: Option<RestWatch>,
     written: Written,
+    due: Due,
 }
 
 /// The step of what was written last, so that nothing is written twice.
@@ -189,9 +112,18 @@ struct Written {
     fields: Option<u64>,
     grains: Option<u64>,
 }
+state!(Written: row fields grains);
 
 impl Driver<'_> {
     fn drive(&mut self) -> Result<Finished, RunError> {
+        if let Some(kept) = self.outside.resumed {
+            let path = self.recorder.folder().file(super::checkpoint::FILE)?;
+            let read = kept.read(|tape| self.state(tape));
+            read.map_err(|problem| RunError::Checkpoint { path, problem })?;
+            self.experiment.look();
+            self.recorder.write_series()?;
+        }
+        self.due.start(self.experiment.step());
         self.summary(&self.finished(Ended::Running), None)?;
         let ended = match self.reach_end() {
             Ok(ended) => ended,
@@ -201,26 +133,70 @@ impl Driver<'_> {
         let finished = self.finished(ended);
         self.summary(&finished, None)?;
         self.experiment.finish(self.recorder)?;
+        if ended != Ended::Interrupted {
+            self.recorder.folder().close()?;
+        }
         self.recorder.folder().sync()?;
         Ok(finished)
     }
 
     /// Steps and outputs, those of the end too but for tables and pictures.
     fn reach_end(&mut self) -> Result<Ended, RunError> {
-        self.row()?;
-        self.fields()?;
-        self.grains()?;
-        self.recorder.folder().sync()?;
-        loop {
-            let due = self.order.schedule.next(self.experiment.step());
-            self.advance(due.min(self.experiment.next_look()))?;
-            self.experiment.look();
-            let ended = self.ended();
-            self.outputs(ended.is_some())?;
-            if let Some(ended) = ended {
-                return Ok(ended);
-            }
+        if self.outside.resumed.is_none() {
+            self.row()?;
+            self.fields()?;
+            self.grains()?;
+            self.recorder.folder().sync()?;
         }
+        loop {
+            let due = self.order.schedule.next(self.experiment.step()).min(self.experiment.next_look());
+            self.advance(due)?;
+            self.experiment.look();
+            let arrived = self.experiment.step() >= due || self.experiment.is_empty();
+            if arrived {
+                let ended = self.ended();
+                self.outputs(ended.is_some())?;
+                if let Some(ended) = ended {
+                    return Ok(ended);
+                }
+            }
+            if self.outside.interrupted() {
+                // Before the outputs of an end that the run would not have had.
+                if self.outside.checkpoints.is_some() {
+                    self.checkpoint();
+                }
+                self.outputs(true)?;
+                return Ok(Ended::Interrupted);
+            }
+            self.checkpoint_if_due();
+        }
+    }
+
+    fn checkpoint_if_due(&mut self) {
+        if self.due.take(self.experiment.step()) {
+            self.checkpoint();
+        }
+    }
+
+    /// Writes a checkpoint; the one before stays until the new one is complete, and if that cannot be written.
+    fn checkpoint(&mut self) {
+        let folder = std::sync::Arc::clone(self.recorder.folder());
+        let labels = self.order.labels.clone();
+        if let Err(error) = super::checkpoint::write(&folder, &labels, |tape| self.state(tape)) {
+            self.outside.progress.note(&format!("warning: no checkpoint: {error}"));
+        }
+    }
+
+    /// Everything that the rest of the run depends on.
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { experiment, recorder, order, rest, written, stepping, updates, outside: _, due: _ } = self;
+        order.schedule.state(tape)?;
+        part(rest, tape)?;
+        written.state(tape)?;
+        stepping.state(tape)?;
+        updates.state(tape)?;
+        recorder.state(tape)?;
+        experiment.state(tape)
     }
 
     /// Steps up to `due` in strides, so that the bar moves.
@@ -238,6 +214,10 @@ impl Driver<'_> {
                 return Err(self.stopped(report));
             }
             self.experiment.tidy();
+            // At the end of the stretch outputs come first.
+            if self.experiment.step() < due && !self.experiment.is_empty() {
+                self.checkpoint_if_due();
+            }
         }
         Ok(())
     }
@@ -279,10 +259,8 @@ impl Driver<'_> {
             Some(Ended::AtRest)
         } else if self.experiment.is_empty() {
             Some(Ended::Empty)
-        } else if now >= self.order.schedule.end {
-            Some(Ended::EndTime)
         } else {
-            self.outside.interrupted().then_some(Ended::Interrupted)
+            (now >= self.order.schedule.end).then_some(Ended::EndTime)
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::checkpoint::CheckpointProblem;
 use super::stop::StopReport;
 use crate::output::OutputError;
 use crate::solver::run::StartError;
@@ -50,6 +51,14 @@ pub enum RunError {
         path: PathBuf,
         /// The file.
         name: String,
+    },
+    /// The run cannot go on from its checkpoint.
+    #[error("{}: {problem}", .path.display())]
+    Checkpoint {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        problem: CheckpointProblem,
     },
     /// The backend refused the set-up.
     #[error("cannot start: {0}")]

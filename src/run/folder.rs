@@ -9,6 +9,7 @@ use std::io::{self, Write};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use super::checkpoint::FILE as CHECKPOINT;
 use super::error::RunError;
 use crate::output::{OutputError, atomic};
 
@@ -20,7 +21,8 @@ const HEAD: &str = "# Files that lahar wrote here. The next run into this folder
 pub(super) const PLOTS: &str = "plots";
 
 /// Files of fixed names, but for the list.
-const FIXED: [&str; 10] = [
+const FIXED: [&str; 11] = [
+    CHECKPOINT,
     "scene.json",
     "plan.json",
     "summary.json",
@@ -62,16 +64,7 @@ impl Folder {
         let plots = path.join(PLOTS);
         fs::create_dir_all(&plots).map_err(|source| RunError::Folder { path: plots, source })?;
         let failed = |source| RunError::Folder { path: path.join(LIST), source };
-        let open = File::options().read(true).append(true).create(true).open(path.join(LIST));
-        let mut file = open.map_err(failed)?;
-        // Where files cannot be locked, nobody watches.
-        if let Err(TryLockError::WouldBlock) = file.try_lock() {
-            return Err(RunError::InUse { path: path.to_path_buf() });
-        }
-        let text = fs::read_to_string(path.join(LIST)).map_err(failed)?;
-        if !text.starts_with(HEAD) && !HEAD.starts_with(&text) {
-            return Err(RunError::Stranger { path: path.to_path_buf(), name: LIST.to_owned() });
-        }
+        let (mut file, text) = locked_list(path)?;
         let listed = listed(&text);
         let old: Vec<&String> = listed.iter().filter(|name| path.join(name).is_file()).collect();
         if let (true, Some(first)) = (keep, old.first()) {
@@ -91,6 +84,34 @@ impl Folder {
         let removed = old.len();
         let list = Mutex::new(List { names: BTreeSet::new(), file });
         Ok((Self { path: path.to_path_buf(), list }, removed))
+    }
+
+    /// The folder of a run that goes on, as it is.
+    ///
+    /// # Errors
+    /// Another run writes into it; its list is not one.
+    pub fn reopen(path: &Path) -> Result<Self, RunError> {
+        let (file, text) = locked_list(path)?;
+        remove_temporary(path).map_err(|source| RunError::Folder { path: path.to_path_buf(), source })?;
+        let list = Mutex::new(List { names: listed(&text), file });
+        Ok(Self { path: path.to_path_buf(), list })
+    }
+
+    /// Ends the list of a run that is over: its files in order, and no checkpoint.
+    ///
+    /// # Errors
+    /// I/O.
+    pub(crate) fn close(&self) -> Result<(), OutputError> {
+        let mut list = self.list.lock().unwrap_or_else(PoisonError::into_inner);
+        if list.names.remove(CHECKPOINT) {
+            let path = self.path.join(CHECKPOINT);
+            fs::remove_file(&path).or_else(|source| match source.kind() {
+                io::ErrorKind::NotFound => Ok(()),
+                _ => Err(OutputError::Io { path, doing: "remove", source }),
+            })?;
+        }
+        let names = list.names.iter().fold(HEAD.to_owned(), |text, name| text + name + "\n");
+        atomic::write(&self.path.join(LIST), names.as_bytes())
     }
 
     /// The path of a file that is about to be written, which is put on the list.
@@ -129,6 +150,22 @@ impl Folder {
         let failed = |source| OutputError::Io { path: self.path.clone(), doing: "flush", source };
         atomic::sync(&self.path).map_err(failed)
     }
+}
+
+/// The list of a folder, locked, and what is on it.
+fn locked_list(path: &Path) -> Result<(File, String), RunError> {
+    let failed = |source| RunError::Folder { path: path.join(LIST), source };
+    let open = File::options().read(true).append(true).create(true).open(path.join(LIST));
+    let file = open.map_err(failed)?;
+    // Where files cannot be locked, nobody watches.
+    if let Err(TryLockError::WouldBlock) = file.try_lock() {
+        return Err(RunError::InUse { path: path.to_path_buf() });
+    }
+    let text = fs::read_to_string(path.join(LIST)).map_err(failed)?;
+    if !text.starts_with(HEAD) && !HEAD.starts_with(&text) {
+        return Err(RunError::Stranger { path: path.to_path_buf(), name: LIST.to_owned() });
+    }
+    Ok((file, text))
 }
 
 /// Names on a list. A line that names nothing in the folder or among its plots was written by somebody else.

@@ -8,6 +8,7 @@ use super::folder::Folder;
 use super::measure::quantity::Quantity;
 use crate::output::OutputError;
 use crate::output::csv::Series;
+use crate::state::{State, StateError, Tape};
 
 /// Knows the folder, and what the probes have said so far.
 pub(super) struct Recorder {
@@ -25,6 +26,22 @@ struct SeriesFile {
     /// Rows that are in it, and its length with them, bytes.
     rows: usize,
     length: u64,
+}
+
+impl State for Recorder {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { series, groups, file, folder: _ } = self;
+        series.state(tape)?;
+        let mut ranges: Vec<(String, (usize, usize))> =
+            groups.drain(..).map(|(name, range)| (name, (range.start, range.end))).collect();
+        ranges.state(tape)?;
+        *groups = ranges.into_iter().map(|(name, (start, end))| (name, start..end)).collect();
+        if tape.reads() {
+            // Rows of later times may be in it.
+            *file = None;
+        }
+        Ok(())
+    }
 }
 
 impl Recorder {

@@ -13,6 +13,7 @@ use crate::run::measure::fluid::{Frame, SECTION_COLUMNS};
 use crate::scene::{Measure, Probe};
 use crate::setup::Setup;
 use crate::solver::run::Fields;
+use crate::state::{State, StateError, Tape, state};
 
 /// Knows what has been written.
 pub(super) struct Files<'a> {
@@ -25,10 +26,23 @@ pub(super) struct Files<'a> {
 }
 
 /// A section at one time, kept for the plot at the end.
+#[derive(Default)]
 pub(super) struct Section {
     pub probe: String,
     pub time_s: f64,
     pub rows: Vec<[f64; 7]>,
+}
+
+state!(Section: probe time_s rows);
+
+impl State for Files<'_> {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { sections, collection, surfaces, written, folder: _, setup: _ } = self;
+        sections.state(tape)?;
+        collection.state(tape)?;
+        surfaces.state(tape)?;
+        written.state(tape)
+    }
 }
 
 /// A fluid at one time.

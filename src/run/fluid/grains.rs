@@ -14,6 +14,7 @@ use crate::run::measure::grains::Grains;
 use crate::run::recorder::Recorder;
 use crate::run::summary::{CoupledPart, CouplingPart};
 use crate::solver::run::Run;
+use crate::state::{State, StateError, Tape};
 use crate::units::Units;
 
 /// The grains in a fluid.
@@ -35,6 +36,19 @@ impl<'a> InFluid<'a> {
             files: Files::new(plan, size_m, Arc::clone(recorder.folder())),
             contacts: Contacts::new(&plan.walls),
         }
+    }
+
+    /// Writes or reads everything but what the run itself keeps; takes out of that the grains that had left.
+    ///
+    /// # Errors
+    /// As [`State::state`].
+    pub(crate) fn state(&mut self, run: &mut dyn Run, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { population, files, contacts, coupled: _ } = self;
+        if let Some(keep) = population.state(tape)? {
+            run.leave(&keep);
+        }
+        files.state(tape)?;
+        contacts.state(tape)
     }
 
     /// The grains as they are at `time`, s.

@@ -9,8 +9,8 @@ mod stop;
 
 use std::sync::Arc;
 
-use super::driver::Experiment;
 use super::error::RunError;
+use super::experiment::Experiment;
 use super::load_summary::LoadSummary;
 use super::measure::fields::max_speed;
 use super::measure::fluid::{Fluid, Frame};
@@ -28,6 +28,7 @@ use crate::plan::Plan;
 use crate::scene::{Measure, RestMeasure, Scene};
 use crate::solver::run::{Backend, Fields, Run};
 use crate::solver::steady::{SteadyOutcome, Watch, push};
+use crate::state::{State as _, StateError, Tape, part};
 use files::{Files, Shot};
 use grains::InFluid;
 use pictures::Plots;
@@ -256,6 +257,31 @@ impl Experiment for Flow<'_> {
     fn line(&self) -> String {
         let speed = self.plan.units.velocity_to_si(max_speed(&self.fields));
         format!("largest speed {speed:.4e} m/s")
+    }
+
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self {
+            run,
+            probes,
+            files,
+            grains,
+            loads,
+            mass_at_start,
+            watch,
+            scene: _,
+            plan: _,
+            fields: _,
+            frame: _,
+        } = self;
+        if let Some(grains) = grains {
+            grains.state(run.as_mut(), tape)?;
+        }
+        run.state(tape)?;
+        probes.state(tape)?;
+        files.state(tape)?;
+        loads.state(tape)?;
+        mass_at_start.state(tape)?;
+        part(watch, tape)
     }
 
     fn parts(&self) -> Parts {

@@ -11,6 +11,7 @@ use crate::output::vtp::{Cells, PolyData};
 use crate::plan::grains::{COLUMNS, GrainPlan};
 use crate::run::folder::Folder;
 use crate::run::view::View;
+use crate::state::{State, StateError, Tape};
 
 /// Knows the folder and what has been written.
 pub(in crate::run) struct Files<'a> {
@@ -19,6 +20,14 @@ pub(in crate::run) struct Files<'a> {
     size_m: [f64; 3],
     collections: [(&'static str, Collection); 4],
     written: usize,
+}
+
+impl State for Files<'_> {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { collections, written, folder: _, plan: _, size_m: _ } = self;
+        collections.iter_mut().try_for_each(|(_, collection)| collection.state(tape))?;
+        written.state(tape)
+    }
 }
 
 impl<'a> Files<'a> {

@@ -9,8 +9,8 @@ mod walls;
 
 use std::sync::Arc;
 
-use super::driver::Experiment;
 use super::error::RunError;
+use super::experiment::Experiment;
 use super::load_summary::LoadSummary;
 use super::measure::grains::Grains;
 use super::measure::loads::{Loads, of_walls, start_of_walls};
@@ -29,6 +29,7 @@ use crate::output::OutputError;
 use crate::plan::grains::GrainPlan;
 use crate::scene::dry::DryScene;
 use crate::scene::{Measure, RestMeasure};
+use crate::state::{State as _, StateError, Tape};
 use files::Files;
 use population::Population;
 
@@ -177,6 +178,17 @@ impl Experiment for Dry<'_> {
         };
         let contacts = self.dem.pair_counts().1;
         format!("largest speed {:.4e} m/s, {contacts} contacts{left}", view.max_speed())
+    }
+
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { dem, population, probes, loads, files, scene: _, plan: _ } = self;
+        if let Some(keep) = population.state(tape)? {
+            dem.retain(&keep, population.walls());
+        }
+        dem.state(tape)?;
+        probes.state(tape)?;
+        loads.state(tape)?;
+        files.state(tape)
     }
 
     fn parts(&self) -> Parts {

@@ -22,6 +22,7 @@ use quantity::{Quantity, several};
 use crate::scene::dry::DryScene;
 use crate::scene::series::{self, Listed};
 use crate::scene::{Measure, Scene, Subject};
+use crate::state::{self, StateError, Tape, fixed, part};
 
 /// What there is to be measured at one time.
 #[derive(Clone, Copy)]
@@ -42,6 +43,20 @@ struct Gauge {
 /// The probes of a run, in the order of their columns.
 pub(super) struct Probes {
     list: Vec<Gauge>,
+}
+
+impl state::State for Gauge {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { crossings, listed: _ } = self;
+        part(crossings, tape)
+    }
+}
+
+impl state::State for Probes {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { list } = self;
+        fixed(list, tape)
+    }
 }
 
 impl Probes {
