@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 
-use super::folder::Folder;
 use crate::output::{OutputError, atomic};
 use crate::state::{State, StateError, Tape, state};
 
@@ -96,12 +95,12 @@ pub(super) struct Labels {
     pub solver: String,
     /// Hash of the scene.
     pub scene: String,
-    /// Hash of the grains and walls as planned, whose tables and meshes are not in the scene.
-    pub grains: String,
+    /// Hash of grains, walls and solids as planned: the scene has no more than the names of their tables and meshes.
+    pub bodies: String,
     /// Last step.
     pub end: u64,
 }
-state!(Labels: version solver scene grains end);
+state!(Labels: version solver scene bodies end);
 
 /// Why a run cannot go on from a checkpoint.
 #[derive(Debug, thiserror::Error)]
@@ -167,16 +166,16 @@ impl Write for Summing<'_> {
     }
 }
 
-/// Writes a checkpoint into the folder of a run.
+/// Writes a checkpoint.
 ///
 /// # Errors
 /// I/O; the solver cannot be continued.
 pub(super) fn write(
-    folder: &Folder,
+    path: &Path,
     labels: &Labels,
     state: impl FnOnce(&mut Tape<'_>) -> Result<(), StateError>,
 ) -> Result<(), OutputError> {
-    atomic::write_to_disk(&folder.file(FILE)?, |out| {
+    atomic::write_to_disk(path, |out| {
         let mut summing = Summing { out, sum: START };
         summing.write_all(&MARK)?;
         let mut tape = Tape::to(&mut summing);
@@ -237,12 +236,12 @@ impl Kept {
     /// # Errors
     /// It is not.
     pub fn belongs_to(&self, own: &Labels) -> Result<(), CheckpointProblem> {
-        let Labels { version, solver, scene, grains, end } = &self.labels;
+        let Labels { version, solver, scene, bodies, end } = &self.labels;
         let steps = (end.to_string(), own.end.to_string());
         for (what, found, wanted, way_out) in [
             ("version", version, &own.version, "that version of lahar, or run the scene from the start"),
             ("scene", scene, &own.scene, "the scene it was made with: `scene.json` beside it"),
-            ("grains or meshes", grains, &own.grains, "the tables and meshes it was made with"),
+            ("grains, solids or meshes", bodies, &own.bodies, "the tables and meshes it was made with"),
             ("solver", solver, &own.solver, "the same `--backend`"),
             ("last step", &steps.0, &steps.1, "the same `--until`, or none"),
         ] {

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use super::checkpoint::{Due, Every, Kept, Labels};
+use super::checkpoint::{self, Due, Every, Kept, Labels};
 use super::error::RunError;
 use super::experiment::Experiment;
 use super::recorder::Recorder;
@@ -117,7 +117,7 @@ state!(Written: row fields grains);
 impl Driver<'_> {
     fn drive(&mut self) -> Result<Finished, RunError> {
         if let Some(kept) = self.outside.resumed {
-            let path = self.recorder.folder().file(super::checkpoint::FILE)?;
+            let path = self.recorder.folder().file(checkpoint::FILE)?;
             let read = kept.read(|tape| self.state(tape));
             read.map_err(|problem| RunError::Checkpoint { path, problem })?;
             self.experiment.look();
@@ -180,9 +180,10 @@ impl Driver<'_> {
 
     /// Writes a checkpoint; the one before stays until the new one is complete, and if that cannot be written.
     fn checkpoint(&mut self) {
-        let folder = std::sync::Arc::clone(self.recorder.folder());
         let labels = self.order.labels.clone();
-        if let Err(error) = super::checkpoint::write(&folder, &labels, |tape| self.state(tape)) {
+        let path = self.recorder.folder().file(checkpoint::FILE);
+        let written = path.and_then(|path| checkpoint::write(&path, &labels, |tape| self.state(tape)));
+        if let Err(error) = written {
             self.outside.progress.note(&format!("warning: no checkpoint: {error}"));
         }
     }

@@ -141,12 +141,11 @@ fn kept(planned: &Planned, options: &Options<'_>) -> Result<Kept, RunError> {
 }
 
 fn labels_of_flow(scene: &Scene, plan: &Plan, options: &Options<'_>) -> Labels {
-    let grains = plan.grains.as_ref().map(|coupled| hash_of_grains(&coupled.grains));
     Labels {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         solver: options.backend.name().to_owned(),
         scene: summary::hash_of(scene),
-        grains: grains.unwrap_or_default(),
+        bodies: hash_of_bodies(plan),
         end: options.until_s.map_or(plan.steps, |until| steps_until(until, &plan.units)),
     }
 }
@@ -157,12 +156,21 @@ fn labels_of_grains(scene: &DryScene, plan: &GrainPlan, options: &Options<'_>) -
         version: env!("CARGO_PKG_VERSION").to_owned(),
         solver: "grains".to_owned(),
         scene: summary::hash_of(scene),
-        grains: hash_of_grains(plan),
+        bodies: hash_of_grains(plan),
         end: options.until_s.map_or(plan.steps, |until| steps_until(until, &units)),
     }
 }
 
-/// Tables and meshes are not in the scene: a hash of what came of them.
+/// Hash of solids, fluid as drawn, and grains.
+fn hash_of_bodies(plan: &Plan) -> String {
+    let fill = plan.setup.free_surface.iter().flat_map(|surface| surface.fill.iter());
+    let mut bytes: Vec<u8> = fill.flat_map(|fill| fill.to_le_bytes()).collect();
+    bytes.extend_from_slice(&plan.setup.solids);
+    bytes.extend(plan.grains.iter().flat_map(|coupled| hash_of_grains(&coupled.grains).into_bytes()));
+    summary::hash(&bytes)
+}
+
+/// Hash of grains and walls.
 fn hash_of_grains(plan: &GrainPlan) -> String {
     summary::hash(format!("{:?}", plan.setup).as_bytes())
 }
