@@ -122,6 +122,7 @@ impl Driver<'_> {
             read.map_err(|problem| RunError::Checkpoint { path, problem })?;
             self.experiment.look();
             self.recorder.write_series()?;
+            self.outside.progress.note(&format!("going on: {}", self.line()));
         }
         self.due.start(self.experiment.step());
         self.summary(&self.finished(Ended::Running), None)?;
@@ -136,7 +137,7 @@ impl Driver<'_> {
         if ended != Ended::Interrupted {
             self.recorder.folder().close()?;
         }
-        self.recorder.folder().sync()?;
+        self.recorder.folder().sync(true)?;
         Ok(finished)
     }
 
@@ -146,7 +147,7 @@ impl Driver<'_> {
             self.row()?;
             self.fields()?;
             self.grains()?;
-            self.recorder.folder().sync()?;
+            self.recorder.folder().sync(false)?;
         }
         loop {
             let due = self.order.schedule.next(self.experiment.step()).min(self.experiment.next_look());
@@ -236,7 +237,7 @@ impl Driver<'_> {
             }
         }
         // The disk has what it could take.
-        let _ = self.recorder.folder().sync();
+        let _ = self.recorder.folder().sync(true);
         RunError::Stopped(report)
     }
 
@@ -286,7 +287,7 @@ impl Driver<'_> {
         if due.grains {
             self.grains()?;
         }
-        if due.files || due.grains { self.recorder.folder().sync() } else { Ok(()) }
+        if due.files || due.grains { self.recorder.folder().sync(false) } else { Ok(()) }
     }
 
     fn row(&mut self) -> Result<(), OutputError> {

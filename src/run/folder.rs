@@ -8,6 +8,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use super::checkpoint::FILE as CHECKPOINT;
 use super::error::RunError;
@@ -19,6 +20,9 @@ const LIST: &str = "lahar_files.txt";
 const HEAD: &str = "# Files that lahar wrote here. The next run into this folder removes them.\n";
 /// Folder of the plots.
 pub(super) const PLOTS: &str = "plots";
+
+/// A flush waits for everybody's files on that disk: not more often than this.
+const BETWEEN_FLUSHES: Duration = Duration::from_secs(1);
 
 /// Files of fixed names, but for the list.
 const FIXED: [&str; 11] = [
@@ -48,6 +52,8 @@ struct List {
     names: BTreeSet<String>,
     /// Locked as long as the run lasts.
     file: File,
+    /// When files were flushed to the disk.
+    flushed: Instant,
 }
 
 impl Folder {
@@ -82,7 +88,7 @@ impl Folder {
         }
         file.set_len(0).and_then(|()| file.write_all(HEAD.as_bytes())).map_err(failed)?;
         let removed = old.len();
-        let list = Mutex::new(List { names: BTreeSet::new(), file });
+        let list = Mutex::new(List { names: BTreeSet::new(), file, flushed: Instant::now() });
         Ok((Self { path: path.to_path_buf(), list }, removed))
     }
 
@@ -93,7 +99,7 @@ impl Folder {
     pub fn reopen(path: &Path) -> Result<Self, RunError> {
         let (file, text) = locked_list(path)?;
         remove_temporary(path).map_err(|source| RunError::Folder { path: path.to_path_buf(), source })?;
-        let list = Mutex::new(List { names: listed(&text), file });
+        let list = Mutex::new(List { names: listed(&text), file, flushed: Instant::now() });
         Ok(Self { path: path.to_path_buf(), list })
     }
 
@@ -142,11 +148,16 @@ impl Folder {
         self.file(&format!("{PLOTS}/{name}"))
     }
 
-    /// Flushes everything to the disk.
+    /// Flushes everything to the disk after an output, unless that was done a moment ago; `last`: in any case.
     ///
     /// # Errors
     /// The disk failed.
-    pub(crate) fn sync(&self) -> Result<(), OutputError> {
+    pub(crate) fn sync(&self, last: bool) -> Result<(), OutputError> {
+        let mut list = self.list.lock().unwrap_or_else(PoisonError::into_inner);
+        if !last && list.flushed.elapsed() < BETWEEN_FLUSHES {
+            return Ok(());
+        }
+        list.flushed = Instant::now();
         let failed = |source| OutputError::Io { path: self.path.clone(), doing: "flush", source };
         atomic::sync(&self.path).map_err(failed)
     }
