@@ -67,17 +67,20 @@ const GRAINS: &str = r#"{
     }
 }"#;
 
-/// The dam with grains in it.
+/// A smaller dam with grains in it, one of which leaves.
 fn grains_in_dam() -> String {
     let mut scene: serde_json::Value = serde_json::from_str(DAM).expect("JSON");
     let dry: serde_json::Value = serde_json::from_str(GRAINS).expect("JSON");
+    scene["domain"]["size_m"] = serde_json::json!([0.09, 0.04, 0.07]);
+    scene["fluid"]["initial"]["shapes"][0]["shape"]["box"]["max_m"] = serde_json::json!([0.05, 0.04, 0.05]);
+    scene["solids"][0]["shape"]["sphere"]["centre_m"] = serde_json::json!([0.06, 0.02, -0.01]);
     scene["grains"] = dry["grains"].clone();
     scene["grains"].as_object_mut().expect("an object").remove("clumps");
     scene["grains"]["sets"] = serde_json::json!([{ "name": "stones", "place": { "list": [
-        { "position_m": [0.03, 0.02, 0.03], "radius_m": 0.012 },
-        { "position_m": [0.055, 0.02, 0.031], "radius_m": 0.012 },
-        { "position_m": [0.21, 0.02, 0.02], "radius_m": 0.012, "velocity_m_per_s": [0.8, 0, 0] }
+        { "position_m": [0.02, 0.02, 0.02], "radius_m": 0.012 },
+        { "position_m": [0.077, 0.02, 0.04], "radius_m": 0.012, "velocity_m_per_s": [2.5, 0, 0] }
     ] } }]);
+    scene["stop"] = serde_json::json!({ "end_time_s": 0.0144 });
     scene["output"]["grain_probes"] = serde_json::json!([{ "name": "energy", "measure": "energies" }]);
     scene.to_string()
 }
