@@ -33,7 +33,7 @@
 //! | laws of grains, stability of operators | [`dem`], [`stability`] |
 //! | laws of one cell, shapes | [`collision`], [`rheology`], [`geometry`] |
 //! | the lattice | [`lattice`] |
-//! | numbers | [`lane`], [`vector`], [`units`], [`fingerprint`] |
+//! | numbers | [`lane`], [`vector`], [`units`], [`fingerprint`], [`state`] |
 //!
 //! # The map
 //! Equation tags, where they are written down, and a claim that would notice a mistake. `REPORT.md` has
@@ -83,6 +83,8 @@
 //! | C7 | load on fixed solids | `solver/books.rs` | `wall-hydrostatic-load` |
 
 #![deny(missing_docs)]
+// These end the program when nobody reads; `output::terminal` does not.
+#![cfg_attr(not(test), deny(clippy::print_stdout, clippy::print_stderr))]
 
 pub mod bench;
 pub mod boundary;
@@ -102,6 +104,7 @@ pub mod scene;
 pub mod setup;
 pub mod solver;
 pub mod stability;
+pub mod state;
 pub mod units;
 pub mod vector;
 

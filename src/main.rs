@@ -1,5 +1,8 @@
 //! The command line.
 
+// These end the program when nobody reads; `output::terminal` does not.
+#![deny(clippy::print_stdout, clippy::print_stderr)]
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -7,9 +10,10 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 use lahar::bench::{self, BenchError};
 use lahar::output::OutputError;
+use lahar::output::terminal::{print, say};
 use lahar::plan::target::Target;
 use lahar::plan::{Layout, PlanError, Planned};
-use lahar::run::{Finished, Options, RunError};
+use lahar::run::{Ended, Every, Finished, Interrupt, Options, RunError};
 use lahar::scene::{self, SceneError, SceneProblem};
 use lahar::solver::choose::{Best, only_plain};
 use lahar::solver::plain::Plain;
@@ -24,7 +28,8 @@ const IO: u8 = 4;
 #[command(
     name = "lahar",
     version,
-    after_help = "Exit codes: 0 done, 2 bad input, 3 run stopped by a guard, 4 input or output failed."
+    after_help = "Exit codes: 0 done, 2 bad input, 3 run stopped by a guard, 4 input or output failed, 128 + n ended by \
+                  signal n (129 hang-up, 130 interrupt, 143 terminate)."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -37,9 +42,18 @@ enum Command {
     Run {
         /// Scene file.
         scene: PathBuf,
-        /// Output folder [default: out/<name of the scene>].
+        /// Output folder; files of an earlier run there are removed [default: out/<name of the scene>].
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        /// Refuse a folder with an earlier run instead.
+        #[arg(long)]
+        keep: bool,
+        /// Write the state into the output folder, to go on from: `10min`, `90s`, `2h` or `5000steps` after the last time.
+        #[arg(long, value_name = "INTERVAL", allow_hyphen_values = true)]
+        checkpoint_every: Option<Every>,
+        /// Go on from the last state in this output folder.
+        #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "keep"])]
+        resume: Option<PathBuf>,
         /// Solver.
         #[arg(long, value_enum, default_value = "fast")]
         backend: BackendName,
@@ -134,6 +148,8 @@ enum Failure {
     Json(#[from] serde_json::Error),
     #[error("cannot print: {0}")]
     Print(#[from] std::io::Error),
+    #[error("cannot listen for signals: {0}")]
+    Signals(std::io::Error),
 }
 
 impl Failure {
@@ -141,9 +157,14 @@ impl Failure {
         match self {
             Self::Scene(error) if matches!(*error.problem, SceneProblem::Unreadable { .. }) => IO,
             Self::Scene(_) | Self::Plan(_) | Self::NoTarget(_) => BAD_INPUT,
-            Self::Run(RunError::Start(_)) => BAD_INPUT,
-            Self::Run(RunError::Stopped(_)) => STOPPED,
-            Self::Run(RunError::Threads(_) | RunError::Folder { .. } | RunError::Output(_)) => IO,
+            Self::Run(error) => match error {
+                RunError::Start(_) | RunError::Kept { .. } | RunError::Stranger { .. } => BAD_INPUT,
+                RunError::Checkpoint { .. } => BAD_INPUT,
+                RunError::Stopped(_) => STOPPED,
+                RunError::Threads(_) | RunError::Folder { .. } | RunError::InUse { .. } => IO,
+                RunError::Output(_) => IO,
+            },
+            Self::Signals(_) => IO,
             Self::Bench(BenchError::Stopped { .. } | BenchError::Grains { .. }) => STOPPED,
             Self::Bench(BenchError::Threads(_)) => IO,
             Self::Bench(_) => BAD_INPUT,
@@ -162,54 +183,81 @@ fn main() -> ExitCode {
     // clap prints its own message and leaves with 2 when the command line is wrong.
     let cli = Cli::parse();
     let result = match cli.command {
-        Command::Run { scene, out, backend, threads, until, quiet } => {
-            run(&scene, out, backend, threads, until, quiet)
+        Command::Run { scene, out, keep, checkpoint_every, resume, backend, threads, until, quiet } => {
+            let until_s = until;
+            run(
+                &scene,
+                &RunArguments { out, keep, checkpoint_every, resume, backend, threads, until_s, quiet },
+            )
         }
         Command::Plan { scene, json, backend, target_error } => plan(&scene, json, backend, target_error),
         Command::Bench { json, quick, threads, only } => {
             measure(json, &bench::Options { quick, threads: count(threads), only })
         }
-        Command::Schema => print(&scene::schema()),
+        Command::Schema => printed(&scene::schema()),
     };
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         // The reader of a pipe left: nothing to complain about.
         Err(Failure::Print(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("error: {failure}");
+            say(&format!("error: {failure}"));
             ExitCode::from(failure.code())
         }
     }
 }
 
-fn run(
-    path: &Path,
+/// What the command line says about a run, but for the scene.
+struct RunArguments {
     out: Option<PathBuf>,
+    keep: bool,
+    checkpoint_every: Option<Every>,
+    resume: Option<PathBuf>,
     backend: BackendName,
     threads: Option<u16>,
     until_s: Option<f64>,
     quiet: bool,
-) -> Result<(), Failure> {
+}
+
+fn run(path: &Path, arguments: &RunArguments) -> Result<ExitCode, Failure> {
+    let &RunArguments { ref out, keep, checkpoint_every, ref resume, backend, threads, until_s, quiet } =
+        arguments;
     let planned = Planned::new(scene::load(path)?, backend.layout())?;
-    let out = out.unwrap_or_else(|| default_folder(planned.file()));
+    let out = resume.clone().or(out.clone()).unwrap_or_else(|| default_folder(planned.file()));
     if !quiet {
-        eprintln!("{}", planned.headline());
+        say(&planned.headline());
         if let (BackendName::Fast, Planned::Flow(_, plan)) = (backend, &planned)
             && let Some(what) = only_plain(&plan.setup)
         {
-            eprintln!("note: {what} is run by the plain backend");
+            say(&format!("note: {what} is run by the plain backend"));
         }
         for warning in planned.warnings() {
-            eprintln!("warning: {warning}");
+            say(&format!("warning: {warning}"));
         }
     }
-    let options = Options { out, backend: backend.backend(), threads: count(threads), until_s, quiet };
+    let signals = Interrupt::listen().map_err(Failure::Signals)?;
+    let options = Options {
+        keep,
+        threads: count(threads),
+        until_s,
+        quiet,
+        interrupt: Some(signals.flag()),
+        checkpoint_every,
+        resume: resume.is_some(),
+        ..Options::new(out, backend.backend())
+    };
     let finished = lahar::run::run(&planned, &options)?;
     if !quiet {
-        eprintln!("{}", done(&planned, &finished));
-        eprintln!("results in {}", options.out.display());
+        say(&done(&planned, &finished));
+        say(&format!("results in {}", options.out.display()));
+        if finished.ended == Ended::Interrupted && checkpoint_every.is_some() {
+            say(&format!("go on with --resume {}", options.out.display()));
+        }
     }
-    Ok(())
+    Ok(match finished.ended {
+        Ended::Interrupted => ExitCode::from(signals.exit_code()),
+        _ => ExitCode::SUCCESS,
+    })
 }
 
 /// How a run went, in a line.
@@ -235,7 +283,12 @@ fn default_folder(file: &str) -> PathBuf {
     PathBuf::from("out").join(name)
 }
 
-fn plan(path: &Path, json: bool, backend: BackendName, target_error: Option<Target>) -> Result<(), Failure> {
+fn plan(
+    path: &Path,
+    json: bool,
+    backend: BackendName,
+    target_error: Option<Target>,
+) -> Result<ExitCode, Failure> {
     let planned = Planned::new(scene::load(path)?, backend.layout())?;
     let quote = match target_error {
         Some(target) => {
@@ -244,9 +297,9 @@ fn plan(path: &Path, json: bool, backend: BackendName, target_error: Option<Targ
         None => None,
     };
     if json {
-        print(&format!("{}\n", planned.json(quote.as_ref())?))
+        printed(&format!("{}\n", planned.json(quote.as_ref())?))
     } else {
-        print(&format!("{planned}{}", quote.map_or_else(String::new, |quote| quote.to_string())))
+        printed(&format!("{planned}{}", quote.map_or_else(String::new, |quote| quote.to_string())))
     }
 }
 
@@ -256,18 +309,16 @@ fn count(threads: Option<u16>) -> usize {
         .map_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get), usize::from)
 }
 
-fn measure(json: bool, options: &bench::Options) -> Result<(), Failure> {
-    let report = bench::run(options, &mut |line| eprintln!("{line}"))?;
+fn measure(json: bool, options: &bench::Options) -> Result<ExitCode, Failure> {
+    let report = bench::run(options, &mut |line| say(line))?;
     if json {
-        print(&format!("{}\n", serde_json::to_string_pretty(&report)?))
+        printed(&format!("{}\n", serde_json::to_string_pretty(&report)?))
     } else {
-        print(&report.to_string())
+        printed(&report.to_string())
     }
 }
 
-/// Prints to standard output without panicking when nobody reads.
-fn print(text: &str) -> Result<(), Failure> {
-    use std::io::Write;
-    std::io::stdout().write_all(text.as_bytes())?;
-    Ok(())
+fn printed(text: &str) -> Result<ExitCode, Failure> {
+    print(text)?;
+    Ok(ExitCode::SUCCESS)
 }

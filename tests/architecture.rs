@@ -11,7 +11,7 @@ use sources::{Source, circles, functions, product};
 
 /// The product's modules from the ground up; a module imports from lower floors only.
 const FLOORS: &[&[&str]] = &[
-    &["fingerprint", "lane", "units", "vector"],
+    &["fingerprint", "lane", "state", "units", "vector"],
     &["lattice"],
     &["collision", "geometry", "rheology"],
     &["dem", "stability"],

@@ -180,12 +180,17 @@ fn guard_stops_with_3_says_where_and_keeps_earlier_files() {
     for part in ["stopped at step", "cell (", " m\n", "likely cause", "relaxation time"] {
         assert!(message.contains(part), "`{part}` in {message}");
     }
-    // u = g t reaches 0.4 cells per step, 2 m/s, at 2 s: fields of 0, 0.5, 1 and 1.5 s are there.
-    for number in 0..4 {
+    // u = g t reaches 0.4 cells per step, 2 m/s, at 2 s: fields of 0, 0.5, 1, 1.5 and 2 s are there, and those of the end.
+    for number in 0..6 {
         assert!(out.join(format!("fields_{number:06}.vti")).is_file(), "{number}");
     }
-    assert!(!out.join("fields_000005.vti").exists());
+    assert!(!out.join("fields_000006.vti").exists());
     let summary = Summary::read(&out.join("summary.json")).expect("a summary");
+    let list = std::fs::read_to_string(out.join("run.pvd")).expect("a list of fields");
+    assert!(
+        list.contains(&format!("timestep=\"{}\" part=\"0\" file=\"fields_000005.vti\"", summary.time_s)),
+        "{list}"
+    );
     assert!(summary.stopped.is_some() && summary.ended == Ended::Stopped);
 }
 

@@ -30,7 +30,7 @@ fn peak_is_what_the_plan_says() {
         let _ = std::fs::remove_dir_all(&out);
         let (until_s, bytes) = (Some(2.0 * plan.numbers.time_step_s), plan.numbers.bytes);
         let planned = Planned::Flow(Box::new(scene), Box::new(plan));
-        let options = Options { out: out.clone(), backend: &Best, threads: 2, until_s, quiet: true };
+        let options = Options { threads: 2, until_s, ..Options::new(out.clone(), &Best) };
         run::run(&planned, &options).unwrap_or_else(|error| panic!("{error}"));
         let _ = std::fs::remove_dir_all(&out);
         let Some(peak) = peak() else { return };

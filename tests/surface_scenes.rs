@@ -16,7 +16,7 @@ fn run(name: &str, text: &str) -> PathBuf {
     let scene = scene::flow_from_json(text, &format!("{name}.json"), Path::new("."))
         .unwrap_or_else(|error| panic!("{error}"));
     let plan = Plan::with_memory(&scene, None).unwrap_or_else(|error| panic!("{error}"));
-    let options = Options { out: out.clone(), backend: &Plain, threads: 1, until_s: None, quiet: true };
+    let options = Options::new(out.clone(), &Plain);
     let planned = Planned::Flow(Box::new(scene), Box::new(plan));
     run::run(&planned, &options).unwrap_or_else(|error| panic!("{error}"));
     out

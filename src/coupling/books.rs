@@ -3,6 +3,7 @@
 use super::L3;
 use super::load::Returned;
 use crate::free_surface::ledger::{Sum, VectorSum};
+use crate::state::state;
 
 /// Mass and momentum that went between fluid and grains, lattice units.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,6 +19,8 @@ pub struct CouplingBooks {
     /// Cells freed so far that got fluid.
     pub freed: u64,
 }
+
+state!(CouplingBooks: link_mass covered_mass freed_mass link_momentum covered_momentum freed_momentum covered freed);
 
 impl CouplingBooks {
     pub(super) fn enter_links(&mut self, returned: &Returned) {

@@ -6,6 +6,7 @@ use super::link::{Ball, Blocked, Box3, Link};
 use crate::boundary::links::Source;
 use crate::lattice::{Q, opposite};
 use crate::setup::Setup;
+use crate::state::state;
 use crate::vector::norm_squared;
 use rayon::prelude::*;
 
@@ -62,6 +63,9 @@ pub(crate) struct Coverage {
     covers: Vec<Cover>,
     looks: u64,
 }
+
+state!(Cover: cells links blocked clearance seen);
+state!(Coverage: owner covers looks);
 
 impl Coverage {
     /// Nothing covered yet.

@@ -8,6 +8,7 @@ use crate::rheology::Law;
 use crate::setup::Setup;
 use crate::setup::suspension::lubrication::{STIFFEST, Tangential, tangential};
 use crate::setup::suspension::{Lubrication, Suspension};
+use crate::state::state;
 use crate::units::Units;
 
 /// How far a member may move before the list is made anew, cells.
@@ -104,6 +105,8 @@ pub(crate) struct Gaps {
     /// Sum over the sub-steps of a step of the forces on each wall, N.
     on_walls: Vec<V3>,
 }
+
+state!(Gaps: list seen pairs walls on_walls; but rules law);
 
 impl Gaps {
     /// Nothing looked at yet.

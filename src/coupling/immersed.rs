@@ -10,6 +10,7 @@ use super::load::{BodyLoad, Returned};
 use crate::dem::{Dem, DemError, Shape, V3};
 use crate::setup::Setup;
 use crate::setup::suspension::Suspension;
+use crate::state::{State, StateError, Tape, part};
 use crate::vector::norm;
 use std::sync::OnceLock;
 
@@ -67,6 +68,39 @@ pub struct Immersed {
     pub(super) answers: Vec<Returned>,
     /// For runs on one thread: without a pool the grains would take all threads of the machine.
     pub(super) alone: OnceLock<Option<rayon::ThreadPool>>,
+}
+
+impl State for Immersed {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self {
+            dem,
+            coverage,
+            loads,
+            contact,
+            owed,
+            debt,
+            gradient,
+            gaps,
+            books,
+            config: _,
+            shape: _,
+            first: _,
+            with_gas: _,
+            room: _,
+            failure: _,
+            answers: _,
+            alone: _,
+        } = self;
+        dem.state(tape)?;
+        coverage.state(tape)?;
+        loads.state(tape)?;
+        contact.state(tape)?;
+        owed.state(tape)?;
+        debt.state(tape)?;
+        gradient.state(tape)?;
+        part(gaps, tape)?;
+        books.state(tape)
+    }
 }
 
 impl Immersed {

@@ -4,6 +4,7 @@ use super::L3;
 use crate::boundary::links::{Source, resolve};
 use crate::lattice::{C, Q, opposite};
 use crate::setup::{Face, Setup};
+use crate::state::state;
 use crate::vector::{dot, norm_squared};
 
 /// A sphere of a grain, lattice units.
@@ -16,7 +17,7 @@ pub(crate) struct Ball {
 }
 
 /// A link from a cell outside a grain into a covered cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Link {
     /// The cell outside.
     pub cell: u32,
@@ -31,13 +32,16 @@ pub(crate) struct Link {
 }
 
 /// A link from a covered cell to a wall or a fixed solid: no fluid fits between.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Blocked {
     /// The covered cell.
     pub covered: u32,
     /// Direction from the wall into the grain.
     pub inward: u8,
 }
+
+state!(Link: cell out slot covered behind);
+state!(Blocked: covered inward);
 
 /// Shape of the box as links see it.
 #[derive(Clone, Debug)]

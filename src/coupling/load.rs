@@ -2,6 +2,7 @@
 
 use super::L3;
 use super::host::Place;
+use crate::state::state;
 
 /// Force and torque on one grain in the last step, lattice units: (F, T).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,6 +16,8 @@ pub struct BodyLoad {
     /// Links to fluid cells.
     pub wet_links: u32,
 }
+
+state!(BodyLoad: links held rest wet_links);
 
 impl BodyLoad {
     /// All of it: what the fluid does to the grain, without lubrication.

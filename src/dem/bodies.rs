@@ -1,6 +1,7 @@
 //! State of the bodies (structure of arrays) and of their member spheres.
 
 use super::{Orientation, Shape, V3};
+use crate::state::state;
 use rayon::prelude::*;
 
 /// State and constants of all bodies, one entry per body in the order of the grains of the set-up.
@@ -37,6 +38,11 @@ pub struct Bodies {
     /// Bodies that move as told, not as pushed.
     pub driven: Vec<u32>,
 }
+
+state!(Bodies:
+    position velocity spin orientation momentum force torque;
+    but mass inverse_mass inertia inverse_inertia radius shape first_member driven
+);
 
 /// One body as an integrator moves it.
 #[derive(Debug)]
@@ -134,3 +140,5 @@ pub struct Member {
     /// Material number.
     pub material: u32,
 }
+
+state!(Member: position velocity spin; but radius inverse_mass body material);

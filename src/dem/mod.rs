@@ -33,6 +33,7 @@ pub(crate) mod rotation;
 pub(crate) mod setup;
 pub(crate) mod simulation;
 mod sphere;
+mod state;
 pub(crate) mod timestep;
 pub mod union_moments;
 pub(crate) mod views;

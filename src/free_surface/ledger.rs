@@ -1,5 +1,7 @@
 //! Sums for the ledger \[F5\] that do not depend on the order of their terms.
 
+use crate::state::{State, StateError, Tape, state};
+
 /// One unit of a sum is 2⁻⁹⁰: far below the rounding of any term that matters, and 2³⁶ still fits.
 const BITS: i32 = 90;
 
@@ -95,6 +97,14 @@ impl VectorSum {
     #[must_use]
     pub(crate) fn value(&self) -> [f64; 3] {
         self.0.map(|sum| sum.value())
+    }
+}
+
+state!(Sum: units spoilt);
+
+impl State for VectorSum {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        self.0.state(tape)
     }
 }
 

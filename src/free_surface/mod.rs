@@ -19,11 +19,14 @@ pub mod settle;
 pub(crate) mod shares;
 pub mod voids;
 
+use crate::state::{State, StateError, Tape};
+
 /// What a cell is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Kind {
     /// Empty; not computed.
+    #[default]
     Gas = 0,
     /// Partly filled; has a mass m of its own.
     Interface = 1,
@@ -72,4 +75,19 @@ pub(crate) fn classify<N: IntoIterator<Item = usize>>(
             kind => kind,
         })
         .collect()
+}
+
+impl State for Kind {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let mut number = *self as u8;
+        number.state(tape)?;
+        *self = match number {
+            0 => Self::Gas,
+            1 => Self::Interface,
+            2 => Self::Liquid,
+            3 => Self::Solid,
+            _ => return Err(StateError::Malformed("a cell is of no known kind")),
+        };
+        Ok(())
+    }
 }

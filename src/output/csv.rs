@@ -1,12 +1,12 @@
 //! Time series as comma-separated text, units in the header.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use super::{OutputError, atomic};
+use crate::state::state;
 
 /// One column: what it holds and in which unit (`-` if none).
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Column {
     /// What it holds: `front`.
     pub name: String,
@@ -22,6 +22,9 @@ pub struct Series {
     /// The rows.
     pub rows: Vec<Vec<f64>>,
 }
+
+state!(Column: name unit);
+state!(Series: columns rows);
 
 impl Series {
     /// An empty table with columns given as (name, unit).
@@ -49,17 +52,19 @@ impl Series {
     /// the same bits.
     #[must_use]
     pub(crate) fn to_text(&self) -> String {
+        self.rows.iter().fold(self.head(), |text, row| text + &Self::line(row))
+    }
+
+    /// The first line of the text.
+    pub(crate) fn head(&self) -> String {
         let header: Vec<String> = self.columns.iter().map(|c| format!("{} [{}]", c.name, c.unit)).collect();
-        let mut out = header.join(",");
-        out.push('\n');
-        for row in &self.rows {
-            for (k, x) in row.iter().enumerate() {
-                let comma = if k == 0 { "" } else { "," };
-                let _ = write!(out, "{comma}{}", number(*x));
-            }
-            out.push('\n');
-        }
-        out
+        header.join(",") + "\n"
+    }
+
+    /// The line of a row.
+    pub(crate) fn line(row: &[f64]) -> String {
+        let numbers: Vec<String> = row.iter().map(|x| number(*x)).collect();
+        numbers.join(",") + "\n"
     }
 
     /// Writes the table.

@@ -1,6 +1,6 @@
 //! What a run leaves behind: fields for ParaView, time series, pictures, a summary.
 //!
-//! Every file is written whole or not at all ([`atomic`]).
+//! Every file is written whole or not at all ([`atomic`]), but for the time series of a run, which grows row by row.
 
 use std::path::PathBuf;
 
@@ -15,6 +15,7 @@ pub mod progress;
 pub(crate) mod pvd;
 pub mod svg;
 pub mod table;
+pub mod terminal;
 mod ticks;
 pub mod vti;
 pub mod vtp;

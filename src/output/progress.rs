@@ -4,6 +4,8 @@ use std::io::{IsTerminal, stderr};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::terminal::say;
+
 /// Progress of something with a known number of steps. Everything goes to standard error.
 pub struct Progress {
     bar: Option<ProgressBar>,
@@ -36,8 +38,8 @@ impl Progress {
     /// Prints a line above the bar, or by itself.
     pub fn note(&self, line: &str) {
         match &self.bar {
-            Some(bar) => bar.suspend(|| eprintln!("{line}")),
-            None if !self.quiet => eprintln!("{line}"),
+            Some(bar) => bar.suspend(|| say(line)),
+            None if !self.quiet => say(line),
             None => {}
         }
     }

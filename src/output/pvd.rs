@@ -4,12 +4,15 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::{OutputError, atomic, xml_escape};
+use crate::state::state;
 
 /// Snapshots in the order of time.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Collection {
     entries: Vec<(f64, String)>,
 }
+
+state!(Collection: entries);
 
 impl Collection {
     /// Adds a snapshot; `file` is relative to the folder of the collection.

@@ -1,103 +1,20 @@
 //! The one loop of all runs: step until something is due, look, write, see whether it is over.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use super::checkpoint::{self, Due, Every, Kept, Labels};
 use super::error::RunError;
-use super::load_summary::LoadSummary;
-use super::measure::quantity::Quantity;
-use super::measure::rest::Pace;
+use super::experiment::Experiment;
 use super::recorder::Recorder;
 use super::rest::{RestOutcome, RestWatch};
 use super::schedule::{Cadences, Schedule};
 use super::stop::StopReport;
-use super::summary::{Ended, Parts, Summary};
+use super::summary::{Ended, Summary};
 use crate::output::OutputError;
 use crate::output::progress::Progress;
-use crate::scene::RestMeasure;
 use crate::solver::steady::SteadyOutcome;
-
-/// What a run moves: a fluid, grains, or both.
-pub(super) trait Experiment {
-    /// Steps taken so far.
-    fn step(&self) -> u64;
-
-    /// Time since the start, s.
-    fn time_s(&self) -> f64;
-
-    /// Duration of a step, s.
-    fn step_s(&self) -> f64;
-
-    /// Cells or spheres that a step updates now.
-    fn size(&self) -> u64;
-
-    /// Most steps to be taken before the next [`Self::tidy`].
-    fn stride(&self) -> u64;
-
-    /// Takes steps.
-    ///
-    /// # Errors
-    /// A guard stopped the run.
-    fn advance(&mut self, steps: u64) -> Result<(), Box<StopReport>>;
-
-    /// What has to be done between strides: take out grains that have left, add up forces.
-    fn tidy(&mut self) {}
-
-    /// Whether there is nothing left to be moved.
-    fn is_empty(&self) -> bool {
-        false
-    }
-
-    /// Prepares the state to be measured, after steps were taken.
-    fn look(&mut self) {}
-
-    /// Step at which the next look for steadiness is due; never where none was asked for.
-    fn next_look(&self) -> u64 {
-        u64::MAX
-    }
-
-    /// Looks, if that is due, whether the flow is steady.
-    fn is_steady(&mut self) -> bool {
-        false
-    }
-
-    /// What the looks found; `None` where none were asked for.
-    fn steadiness(&self) -> Option<SteadyOutcome> {
-        None
-    }
-
-    /// How fast everything is, for being at rest.
-    fn pace(&self, measure: RestMeasure) -> Pace;
-
-    /// What every probe says now; means begin anew.
-    fn row(&mut self) -> Vec<(String, Vec<Quantity>)>;
-
-    /// Writes fields, surfaces, profiles and maps.
-    ///
-    /// # Errors
-    /// I/O.
-    fn write_fields(&mut self, recorder: &Recorder) -> Result<(), OutputError>;
-
-    /// Writes grains, contacts and walls.
-    ///
-    /// # Errors
-    /// I/O.
-    fn write_grains(&mut self) -> Result<(), OutputError>;
-
-    /// Writes tables and pictures at the end.
-    ///
-    /// # Errors
-    /// I/O.
-    fn finish(&self, recorder: &Recorder) -> Result<(), OutputError>;
-
-    /// What the loads on solids and walls have been so far.
-    fn loads(&self) -> Vec<LoadSummary>;
-
-    /// What people are told about the state.
-    fn line(&self) -> String;
-
-    /// The state in numbers.
-    fn parts(&self) -> Parts;
-}
+use crate::state::{State, StateError, Tape, part, state};
 
 /// What is known of a run before it starts.
 pub(super) struct Order {
@@ -113,6 +30,26 @@ pub(super) struct Order {
     pub cadences: Cadences,
     /// Those that are due, and the last step.
     pub schedule: Schedule,
+    /// What checkpoints of the run say about it.
+    pub labels: Labels,
+}
+
+/// What a run tells people, and what they tell it.
+#[derive(Clone, Copy)]
+pub(super) struct Outside<'a> {
+    pub progress: &'a Progress,
+    /// Ends the run when it becomes true.
+    pub interrupt: Option<&'a AtomicBool>,
+    /// How often checkpoints are due; `None` for never.
+    pub checkpoints: Option<Every>,
+    /// The checkpoint to go on from.
+    pub resumed: Option<&'a Kept>,
+}
+
+impl Outside<'_> {
+    fn interrupted(&self) -> bool {
+        self.interrupt.is_some_and(|asked| asked.load(Ordering::Relaxed))
+    }
 }
 
 /// How a run ended.
@@ -137,17 +74,19 @@ pub struct Finished {
 /// Drives a run to its end and writes its outputs.
 ///
 /// # Errors
-/// A guard stops the run (what was written before stays), or a file cannot be written.
+/// A guard stops the run, or a file cannot be written. Either leaves behind what can be.
 pub(super) fn drive(
     experiment: &mut dyn Experiment,
     recorder: &mut Recorder,
     order: Order,
-    progress: &Progress,
+    outside: Outside<'_>,
 ) -> Result<Finished, RunError> {
     let rest = order.cadences.arrested.map(RestWatch::new);
-    let mut driver = Driver { experiment, recorder, order, progress, stepping: 0.0, updates: 0.0, rest };
+    let (written, due) = (Written::default(), Due::new(outside.checkpoints));
+    let mut driver =
+        Driver { experiment, recorder, order, outside, stepping: 0.0, updates: 0.0, rest, written, due };
     let result = driver.drive();
-    progress.finish();
+    outside.progress.finish();
     result
 }
 
@@ -155,41 +94,116 @@ struct Driver<'a> {
     experiment: &'a mut dyn Experiment,
     recorder: &'a mut Recorder,
     order: Order,
-    progress: &'a Progress,
+    outside: Outside<'a>,
     /// Wall-clock time of the stepping, s.
     stepping: f64,
     /// Updates so far; the number of fluid cells changes with a free surface.
     updates: f64,
     /// Looks for rest, where the scene asks for it.
     rest: Option<RestWatch>,
+    written: Written,
+    due: Due,
 }
+
+/// The step of what was written last, so that nothing is written twice.
+#[derive(Default)]
+struct Written {
+    row: Option<u64>,
+    fields: Option<u64>,
+    grains: Option<u64>,
+}
+state!(Written: row fields grains);
 
 impl Driver<'_> {
     fn drive(&mut self) -> Result<Finished, RunError> {
-        self.row()?;
-        self.experiment.write_fields(self.recorder)?;
-        self.recorder.write_series()?;
-        self.experiment.write_grains()?;
-        let ended = loop {
-            let due = self.order.schedule.next(self.experiment.step());
-            self.advance(due.min(self.experiment.next_look()))?;
+        if let Some(kept) = self.outside.resumed {
+            let path = self.recorder.folder().file(checkpoint::FILE)?;
+            let read = kept.read(|tape| self.state(tape));
+            read.map_err(|problem| RunError::Checkpoint { path, problem })?;
             self.experiment.look();
-            let ended = self.ended();
-            self.outputs(ended.is_some())?;
-            if let Some(ended) = ended {
-                break ended;
-            }
+            self.recorder.write_series()?;
+            self.outside.progress.note(&format!("going on: {}", self.line()));
+        }
+        self.due.start(self.experiment.step());
+        self.summary(&self.finished(Ended::Running), None)?;
+        let ended = match self.reach_end() {
+            Ok(ended) => ended,
+            Err(RunError::Output(error)) => return Err(self.output_failed(error)),
+            Err(other) => return Err(other),
         };
-        self.recorder.write_series()?;
-        self.experiment.finish(self.recorder)?;
         let finished = self.finished(ended);
         self.summary(&finished, None)?;
+        self.experiment.finish(self.recorder)?;
+        if ended != Ended::Interrupted {
+            self.recorder.folder().close()?;
+        }
+        self.recorder.folder().sync(true)?;
         Ok(finished)
+    }
+
+    /// Steps and outputs, those of the end too but for tables and pictures.
+    fn reach_end(&mut self) -> Result<Ended, RunError> {
+        if self.outside.resumed.is_none() {
+            self.row()?;
+            self.fields()?;
+            self.grains()?;
+            self.recorder.folder().sync(false)?;
+        }
+        loop {
+            let due = self.order.schedule.next(self.experiment.step()).min(self.experiment.next_look());
+            self.advance(due)?;
+            self.experiment.look();
+            let arrived = self.experiment.step() >= due || self.experiment.is_empty();
+            if arrived {
+                let ended = self.ended();
+                self.outputs(ended.is_some())?;
+                if let Some(ended) = ended {
+                    return Ok(ended);
+                }
+            }
+            if self.outside.interrupted() {
+                // Before the outputs of an end that the run would not have had.
+                if self.outside.checkpoints.is_some() {
+                    self.checkpoint();
+                }
+                self.outputs(true)?;
+                return Ok(Ended::Interrupted);
+            }
+            self.checkpoint_if_due();
+        }
+    }
+
+    fn checkpoint_if_due(&mut self) {
+        if self.due.take(self.experiment.step()) {
+            self.checkpoint();
+        }
+    }
+
+    /// Writes a checkpoint; the one before stays until the new one is complete, and if that cannot be written.
+    fn checkpoint(&mut self) {
+        let labels = self.order.labels.clone();
+        let path = self.recorder.folder().file(checkpoint::FILE);
+        let written = path.and_then(|path| checkpoint::write(&path, &labels, |tape| self.state(tape)));
+        if let Err(error) = written {
+            self.outside.progress.note(&format!("warning: no checkpoint: {error}"));
+        }
+    }
+
+    /// Everything that the rest of the run depends on.
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { experiment, recorder, order, rest, written, stepping, updates, outside: _, due: _ } = self;
+        order.schedule.state(tape)?;
+        part(rest, tape)?;
+        written.state(tape)?;
+        stepping.state(tape)?;
+        updates.state(tape)?;
+        recorder.state(tape)?;
+        experiment.state(tape)
     }
 
     /// Steps up to `due` in strides, so that the bar moves.
     fn advance(&mut self, due: u64) -> Result<(), RunError> {
-        while self.experiment.step() < due && !self.experiment.is_empty() {
+        while self.experiment.step() < due && !self.experiment.is_empty() && !self.outside.interrupted() {
             let (from, size) = (self.experiment.step(), self.experiment.size());
             let clock = Instant::now();
             let result = self.experiment.advance(self.experiment.stride().min(due - from));
@@ -197,22 +211,43 @@ impl Driver<'_> {
             // The mean of before and after.
             let taken = (self.experiment.step() - from) as f64;
             self.updates += 0.5 * (size + self.experiment.size()) as f64 * taken;
-            self.progress.set(self.experiment.step());
+            self.outside.progress.set(self.experiment.step());
             if let Err(report) = result {
-                return Err(self.stopped(report)?);
+                return Err(self.stopped(report));
             }
             self.experiment.tidy();
+            // At the end of the stretch outputs come first.
+            if self.experiment.step() < due && !self.experiment.is_empty() {
+                self.checkpoint_if_due();
+            }
         }
         Ok(())
     }
 
-    /// Writes what there is.
-    fn stopped(&mut self, report: Box<StopReport>) -> Result<RunError, RunError> {
+    /// Writes what there is after a guard stopped the run. What cannot be written is said; the guard's reason is what the run
+    /// ends with.
+    fn stopped(&mut self, report: Box<StopReport>) -> RunError {
         self.experiment.look();
-        self.recorder.write_series()?;
         let finished = self.finished(Ended::Stopped);
-        self.summary(&finished, Some(report.to_string()))?;
-        Ok(RunError::Stopped(report))
+        // The summary first: it is small, and says most.
+        let summary = self.summary(&finished, Some(report.to_string()));
+        for result in [summary, self.outputs(true), self.experiment.finish(self.recorder)] {
+            if let Err(error) = result {
+                self.outside.progress.note(&format!("warning: {error}"));
+            }
+        }
+        // The disk has what it could take.
+        let _ = self.recorder.folder().sync(true);
+        RunError::Stopped(report)
+    }
+
+    /// Writes what may still fit after a file could not be written: rows that are missing, and a summary.
+    fn output_failed(&mut self, error: OutputError) -> RunError {
+        let finished = self.finished(Ended::OutputFailed);
+        // Where these cannot be written either, the first error is the one that people are told.
+        let _ = self.recorder.write_series();
+        let _ = self.summary(&finished, Some(error.to_string()));
+        RunError::Output(error)
     }
 
     /// Whether the run is over, and why.
@@ -239,26 +274,42 @@ impl Driver<'_> {
     }
 
     /// Writes what is due; `last`: everything.
-    fn outputs(&mut self, last: bool) -> Result<(), RunError> {
+    fn outputs(&mut self, last: bool) -> Result<(), OutputError> {
         let now = self.experiment.step();
         if self.order.schedule.series.take_if_due(now) || last {
             self.row()?;
         }
         let due = self.order.schedule.take_files(now, last);
         if due.files {
-            self.experiment.write_fields(self.recorder)?;
-            self.recorder.write_series()?;
-            self.progress.note(&self.line());
+            self.fields()?;
+            self.outside.progress.note(&self.line());
         }
         if due.grains {
-            self.experiment.write_grains()?;
+            self.grains()?;
         }
-        Ok(())
+        if due.files || due.grains { self.recorder.folder().sync(false) } else { Ok(()) }
     }
 
-    fn row(&mut self) -> Result<(), RunError> {
+    fn row(&mut self) -> Result<(), OutputError> {
+        if self.written.row.replace(self.experiment.step()) == Some(self.experiment.step()) {
+            return Ok(());
+        }
         let row = self.experiment.row();
-        Ok(self.recorder.row(self.experiment.time_s(), &row)?)
+        self.recorder.row(self.experiment.time_s(), &row)
+    }
+
+    fn fields(&mut self) -> Result<(), OutputError> {
+        if self.written.fields.replace(self.experiment.step()) == Some(self.experiment.step()) {
+            return Ok(());
+        }
+        self.experiment.write_fields()
+    }
+
+    fn grains(&mut self) -> Result<(), OutputError> {
+        if self.written.grains.replace(self.experiment.step()) == Some(self.experiment.step()) {
+            return Ok(());
+        }
+        self.experiment.write_grains()
     }
 
     fn line(&self) -> String {
@@ -305,6 +356,6 @@ impl Driver<'_> {
             loads: self.experiment.loads(),
             stopped,
         };
-        summary.write(&self.recorder.path("summary.json"))
+        summary.write(&self.recorder.folder().file("summary.json")?)
     }
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::measure::rest::Pace;
 use crate::output::number;
 use crate::scene::{Arrested, RestMeasure};
+use crate::state::state;
 
 /// What the checks for rest found, as the last one left it. Printed, it says which speed fell below which limit and when,
 /// or did not, and what the largest speed still was.
@@ -70,10 +71,16 @@ impl fmt::Display for Words {
     }
 }
 
+state!(RestOutcome:
+    reached speed_m_per_s below_since_s checked_at_s largest_speed_m_per_s; but measure limit_m_per_s for_s
+);
+
 /// Looks for rest.
 pub(super) struct RestWatch {
     found: RestOutcome,
 }
+
+state!(RestWatch: found);
 
 impl RestWatch {
     pub fn new(rule: Arrested) -> Self {

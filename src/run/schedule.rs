@@ -2,6 +2,7 @@
 
 use crate::scene::dry::DryScene;
 use crate::scene::{Arrested, Cadence, Scene};
+use crate::state::state;
 use crate::units::Units;
 
 /// Rows of the time series when the scene does not say.
@@ -59,6 +60,8 @@ pub(super) struct Schedule {
     grains_with_files: bool,
 }
 
+state!(Schedule: series files grains arrested; but end grains_with_files);
+
 /// Files that are due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct FilesDue {
@@ -107,6 +110,8 @@ pub(super) struct Ticker {
     interval: f64,
     count: u64,
 }
+
+state!(Ticker: count; but interval);
 
 impl Ticker {
     fn new(cadence: Cadence, units: &Units, end: u64) -> Self {

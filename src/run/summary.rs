@@ -1,4 +1,4 @@
-//! `summary.json`: what a finished run was, in numbers. One shape for every kind of scene.
+//! `summary.json`: what a run was at its end, in numbers; from its start on, that it is under way. One shape for every kind of scene.
 
 use std::path::Path;
 
@@ -24,6 +24,12 @@ pub enum Ended {
     Empty,
     /// A guard stopped it.
     Stopped,
+    /// Somebody asked it to end.
+    Interrupted,
+    /// A file could not be written.
+    OutputFailed,
+    /// It has not ended: it is under way, or was ended from outside.
+    Running,
 }
 
 impl Ended {
@@ -36,6 +42,9 @@ impl Ended {
             Self::AtRest => "at rest",
             Self::Empty => "all grains have left",
             Self::Stopped => "stopped",
+            Self::Interrupted => "interrupted",
+            Self::OutputFailed => "an output failed",
+            Self::Running => "running",
         }
     }
 }
@@ -79,7 +88,7 @@ pub struct Summary {
     /// Loads on solids and walls, one entry per `force` or `torque` probe.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadSummary>,
-    /// Why a guard stopped the run, if one did.
+    /// Why a guard stopped the run, or which file could not be written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stopped: Option<String>,
 }

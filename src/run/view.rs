@@ -1,6 +1,7 @@
 //! Grains at one time, to be measured and written, whoever moves them.
 
 use crate::dem::{Dem, Setup};
+use crate::state::state;
 
 /// Grains that have left through open faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -12,6 +13,8 @@ pub(super) struct Left {
     /// What the books held of their energy, J.
     pub energy_j: f64,
 }
+
+state!(Left: number mass_kg energy_j);
 
 /// Grains at one time.
 #[derive(Clone, Copy)]

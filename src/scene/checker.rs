@@ -3,6 +3,10 @@
 use super::{SceneError, SceneProblem};
 use crate::geometry::{Axis, Shape};
 
+/// Longest name that becomes part of file names; beginnings, numbers and endings come to some 40 letters more, and encrypted file
+/// systems allow 143.
+const LONGEST_NAME: usize = 100;
+
 /// Knows the file name and builds located errors.
 pub(super) struct Checker<'a> {
     pub(super) file: &'a str,
@@ -60,6 +64,13 @@ impl Checker<'_> {
         self.ensure(fresh, path, || SceneProblem::DuplicateName { name: name.to_owned() })?;
         used.push(name.to_owned());
         Ok(())
+    }
+
+    /// A name as in [`Self::name`] that becomes part of file names, and is not too long for that.
+    pub(super) fn file_name(&self, path: &str, name: &str, used: &mut Vec<String>) -> Result<(), SceneError> {
+        let length = name.len();
+        self.ensure(length <= LONGEST_NAME, path, || SceneProblem::LongName { length, limit: LONGEST_NAME })?;
+        self.name(path, name, used)
     }
 
     /// A shape with an inside that reaches into the box.

@@ -1,11 +1,10 @@
 //! What can be wrong with a scene file.
 
-use std::fmt;
-
+pub use super::key_rule::KeyRule;
 pub use super::located::Located;
 use super::words::{
-    choose, did_you_mean, found_keys, list, list_or, list_static, range, rename_or_add, rename_or_define,
-    rename_or_remove, right_type, with_space,
+    already, choose, did_you_mean, found_keys, list, list_or, list_static, range, rename_or_add,
+    rename_or_define, rename_or_remove, right_type, with_space,
 };
 
 /// A problem found while reading or checking a scene.
@@ -309,6 +308,19 @@ pub enum SceneProblem {
          way out: rename it"
     )]
     BadName { name: String },
+    /// A name that makes a file name too long.
+    #[error(
+        "found a name of {length} letters\n  \
+         allowed: at most {limit}; it becomes part of file names, which systems limit to 255 letters\n  \
+         way out: shorten it"
+    )]
+    LongName { length: usize, limit: usize },
+    /// Two columns or files of one name.
+    #[error(
+        "`{by}` makes {what} `{name}`, {}\n  \
+         allowed: names that differ, whatever their capital letters\n  \
+         way out: rename one", already(.other.as_ref()))]
+    NamesCollide { what: &'static str, name: String, by: String, other: Option<String> },
     /// A wave across a wall.
     #[error(
         "axis {axis}: found {count} periods between walls\n  \
@@ -363,35 +375,4 @@ pub enum SceneProblem {
          way out: a shorter interval, or a later `stop.end_time_s`"
     )]
     BeyondEnd { found: f64, end: f64 },
-}
-
-/// How many of several keys a scene gives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum KeyRule {
-    /// One of them, or none.
-    AtMostOne,
-    /// One of them.
-    ExactlyOne,
-    /// The least and the largest of one kind.
-    OnePair,
-}
-
-impl KeyRule {
-    fn way_out(self, found: &[&str]) -> &'static str {
-        match self {
-            Self::OnePair => "give the least and the largest of one kind, and nothing else",
-            Self::AtMostOne | Self::ExactlyOne if found.is_empty() => "add one of them",
-            Self::AtMostOne | Self::ExactlyOne => "keep one of them",
-        }
-    }
-}
-
-impl fmt::Display for KeyRule {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::AtMostOne => "at most one",
-            Self::ExactlyOne => "exactly one",
-            Self::OnePair => "one min-max pair",
-        })
-    }
 }

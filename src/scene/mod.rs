@@ -10,6 +10,7 @@ pub mod dry;
 mod error;
 mod fluid;
 pub(crate) mod force;
+mod key_rule;
 mod located;
 mod motion;
 mod nearest;
@@ -18,6 +19,7 @@ mod operator;
 mod parse;
 pub(crate) mod probe;
 mod rheology;
+pub(crate) mod series;
 mod view;
 mod words;
 

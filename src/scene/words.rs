@@ -53,3 +53,11 @@ pub(super) fn right_type(found: &str) -> &'static str {
         "see `lahar schema` for what belongs here"
     }
 }
+
+/// Who has a name already.
+pub(super) fn already(other: Option<&String>) -> String {
+    match other {
+        Some(other) => format!("which `{other}` makes too"),
+        None => "which every series has".to_owned(),
+    }
+}

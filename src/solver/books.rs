@@ -6,6 +6,7 @@ use crate::free_surface::ledger::{Sum, VectorSum};
 use crate::lattice::C;
 use crate::solver::loads::{LoadSums, Pull};
 use crate::solver::run::{Ledger, Load};
+use crate::state::state;
 
 /// What a run holds now.
 #[derive(Clone, Copy, Debug)]
@@ -289,3 +290,8 @@ impl Books {
         }
     }
 }
+
+state!(Books:
+    initial_mass mass initial_momentum outflow from_walls from_force from_faces from_solids from_gas from_conversions
+    mass_from_grains from_grains conversions
+);

@@ -8,6 +8,7 @@ use crate::lattice::moments::{Moments, deviator, magnitude};
 use crate::rheology::relaxation::shear_rate_of_omega;
 use crate::setup::Setup;
 pub use crate::setup::guard::{Runaway, StartError, Stopped};
+use crate::state::{StateError, Tape, state};
 
 /// A solver that can run a [`Setup`]. External solvers implement this to be put through the claims.
 pub trait Backend: Sync {
@@ -82,6 +83,16 @@ pub trait Run {
     /// Takes the grains that are not kept out of the run; `keep` has one entry per grain. Nothing happens in a run
     /// without grains.
     fn leave(&mut self, keep: &[bool]);
+
+    /// Writes the whole state to a tape, or puts one that was written by a run of the same set-up in place of its own: from there
+    /// both go on with the same bits. Grains that had left must have been taken out ([`Self::leave`]).
+    ///
+    /// # Errors
+    /// I/O, another state, or a backend that does not have this.
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let _ = tape;
+        Err(StateError::Unsupported)
+    }
 
     /// Seconds spent in each pass since the start; empty where a backend does not keep them. For people:
     /// results never depend on them.
@@ -213,3 +224,5 @@ impl Fields {
         !solid && self.kind.get(cell).is_none_or(|&kind| kind == 1 || kind == 2)
     }
 }
+
+state!(Load: force torque impulse wetted);

@@ -7,6 +7,7 @@
 //! looks at successive steps.
 
 use super::run::{Fields, Run, Stopped};
+use crate::state::state;
 
 mod outcome;
 #[cfg(test)]
@@ -58,6 +59,7 @@ pub(crate) struct Watch {
 }
 
 /// What is remembered of a look.
+#[derive(Default)]
 struct Seen {
     step: u64,
     velocity: Vec<[f64; 3]>,
@@ -65,12 +67,14 @@ struct Seen {
 }
 
 /// Change from check to check, per step and over the largest speed then; single precision is enough for its direction.
+#[derive(Default)]
 struct Change {
     steps: f64,
     rate: Vec<[f32; 3]>,
 }
 
 /// Looks after a check, compared with it.
+#[derive(Default)]
 struct Window {
     /// Steps at which to look, the next one last.
     due: Vec<u64>,
@@ -80,6 +84,11 @@ struct Window {
     /// Sum over the first half of the successive steps less that over the second.
     halves: Vec<[f64; 3]>,
 }
+
+state!(Watch: now count before change candidate window ending found; but tolerance interval start last);
+state!(Seen: step velocity momentum);
+state!(Change: steps rate);
+state!(Window: due from swing halves);
 
 impl Watch {
     /// A watch whose first look is at step `start`, and whose last is at step `last`; `interval`: steps between checks.

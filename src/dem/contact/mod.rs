@@ -13,6 +13,7 @@ pub(crate) mod tsuji;
 
 use super::V3;
 use super::material::{Compiled, PairLaw};
+use crate::state::state;
 use friction::{Slider, slide};
 
 /// The three statements of contact mechanics that a run can be made with others of: a harness that shows that it
@@ -98,6 +99,9 @@ pub struct Rolling {
     pub moment: V3,
 }
 
+state!(History: normal root spring force);
+state!(Rolling: roll torque moment);
+
 impl History {
     /// Energy still in the tangential spring of a contact that has just opened, J. It is lost.
     #[inline]
@@ -130,6 +134,8 @@ pub struct Losses {
     /// Rate at which moving walls and driven bodies work on the contacts, W.
     pub driven: f64,
 }
+
+state!(Losses: normal tangential rolling slip roll_slip driven);
 
 impl Losses {
     /// Adds `other`, term by term.

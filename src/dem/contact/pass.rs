@@ -5,6 +5,7 @@ use crate::dem::V3;
 use crate::dem::bodies::Member;
 use crate::dem::material::PairTable;
 use crate::dem::neighbours::PairList;
+use crate::state::state;
 use rayon::prelude::*;
 
 /// Pairs per block; the books are summed block by block.
@@ -34,6 +35,10 @@ pub(crate) struct PairState {
     pub touching: Vec<bool>,
     blocks: Vec<BlockSum>,
 }
+
+// Sums of blocks are made anew in every step.
+state!(PairState: history rolling force touching; but blocks);
+state!(PairForce: force lever half_overlap);
 
 impl PairState {
     /// Torque of friction of pair `p` about the centre of the side with this radius, with its sign turned, N m.

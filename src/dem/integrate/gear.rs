@@ -6,6 +6,7 @@ use super::{External, Integrator, LEAST, Step, TooFast, outside};
 use crate::dem::bodies::Body;
 use crate::dem::rotation::{spin_of, turn};
 use crate::dem::{Bodies, Shape, V3};
+use crate::state::{State, StateError, Tape};
 use rayon::prelude::*;
 
 /// Corrector coefficients of x₀ … x₅ for second-order equations; c₀ = 3/16 if forces depend on velocity.
@@ -16,6 +17,12 @@ pub const CORRECTOR_0_CONSERVATIVE: f64 = 3.0 / 20.0;
 /// Scaled derivatives x_k = (Δt^k/k!) d^k x/dt^k, k = 0 … 5.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Gear(pub [V3; 6]);
+
+impl State for Gear {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        self.0.state(tape)
+    }
+}
 
 impl Gear {
     /// From position, velocity and acceleration; higher derivatives zero.

@@ -3,6 +3,7 @@
 use super::cells::{Cells, fold};
 use crate::dem::V3;
 use crate::dem::bodies::Member;
+use crate::state::state;
 use rayon::prelude::*;
 
 /// Members per block of the search.
@@ -22,6 +23,8 @@ pub struct PairList {
     /// Numbers of pairs, by their second side; see `back_row` for the rows.
     pub back: Vec<u32>,
 }
+
+state!(PairList: pairs shift row back_row back);
 
 impl PairList {
     /// All pairs of members of different bodies nearer than (1 + `skin`) × the sum of their radii, except those of

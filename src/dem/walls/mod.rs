@@ -8,6 +8,7 @@ pub(crate) mod pass;
 pub(crate) mod shapes;
 
 use super::{DemError, Orientation, V3};
+use crate::state::state;
 pub use mesh::Mesh;
 
 /// Which side of a closed surface the grains are on.
@@ -181,6 +182,8 @@ pub struct Pose {
     /// Rotation about it since the start.
     pub turn: Orientation,
 }
+
+state!(Pose: shift turn);
 
 impl Default for Pose {
     fn default() -> Self {

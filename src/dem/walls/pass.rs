@@ -8,13 +8,14 @@ use crate::dem::contact::{
     Contact, ContactEquations, Geometry, History, Losses, Memory, Motion, Rolling, react,
 };
 use crate::dem::neighbours::cells::fold;
+use crate::state::state;
 use rayon::prelude::*;
 
 /// A contact that changes from one face to the next keeps its spring if the normals agree at least this well.
 const INHERIT: f64 = 0.9;
 
 /// A wall that a member may touch before it has moved half a skin.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Candidate {
     /// Wall number.
     pub wall: u32,
@@ -25,7 +26,7 @@ pub struct Candidate {
 }
 
 /// A contact with a wall.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct WallContact {
     /// Wall number.
     pub wall: u32,
@@ -48,7 +49,7 @@ pub struct WallContact {
 }
 
 /// A member near walls.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct NearWall {
     /// Member number.
     pub member: u32,
@@ -74,6 +75,11 @@ pub struct Scenery {
     /// Walls whose surface is not where it was at the start.
     pub shifts: Vec<bool>,
 }
+
+state!(Candidate: wall image triangles);
+state!(WallContact: wall feature image normal overlap arm force history rolling);
+state!(NearWall: member candidates contacts force torque losses too_deep);
+state!(Scenery: poses; but walls shifts);
 
 impl Scenery {
     /// Leaves out the walls from number `walls` on.

@@ -1,20 +1,23 @@
 //! Files of a fluid: fields, surfaces, profiles, sections and maps.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::mesh::free_surface;
 use crate::output::csv::Series;
 use crate::output::pvd::Collection;
 use crate::output::{OutputError, vti, vtp};
+use crate::run::folder::Folder;
 use crate::run::measure::fields::{PROFILE_COLUMNS, is_fluid, profile, unyielded};
 use crate::run::measure::fluid::{Frame, SECTION_COLUMNS};
 use crate::scene::{Measure, Probe};
 use crate::setup::Setup;
 use crate::solver::run::Fields;
+use crate::state::{State, StateError, Tape, state};
 
 /// Knows what has been written.
 pub(super) struct Files<'a> {
-    folder: PathBuf,
+    folder: Arc<Folder>,
     setup: &'a Setup,
     pub sections: Vec<Section>,
     collection: Collection,
@@ -23,10 +26,23 @@ pub(super) struct Files<'a> {
 }
 
 /// A section at one time, kept for the plot at the end.
+#[derive(Default)]
 pub(super) struct Section {
     pub probe: String,
     pub time_s: f64,
     pub rows: Vec<[f64; 7]>,
+}
+
+state!(Section: probe time_s rows);
+
+impl State for Files<'_> {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { sections, collection, surfaces, written, folder: _, setup: _ } = self;
+        sections.state(tape)?;
+        collection.state(tape)?;
+        surfaces.state(tape)?;
+        written.state(tape)
+    }
 }
 
 /// A fluid at one time.
@@ -40,9 +56,9 @@ pub(super) struct Shot<'a> {
 }
 
 impl<'a> Files<'a> {
-    pub fn new(setup: &'a Setup, folder: &Path) -> Self {
+    pub fn new(setup: &'a Setup, folder: Arc<Folder>) -> Self {
         Self {
-            folder: folder.to_path_buf(),
+            folder,
             setup,
             sections: Vec::new(),
             collection: Collection::default(),
@@ -51,8 +67,8 @@ impl<'a> Files<'a> {
         }
     }
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.join(name)
+    fn path(&self, name: &str) -> Result<PathBuf, OutputError> {
+        self.folder.file(name)
     }
 
     /// Fields, the surface, and what probes write into files.
@@ -67,13 +83,13 @@ impl<'a> Files<'a> {
         let name = format!("fields_{:06}.vti", self.written);
         self.image(&name, shot)?;
         self.collection.push(shot.time_s, &name);
-        self.collection.write(&self.path("run.pvd"))?;
+        self.collection.write(&self.path("run.pvd")?)?;
         if self.setup.free_surface.is_some() {
             let name = format!("surface_{:06}.vtp", self.written);
             let mesh = free_surface(self.setup, shot.fields, &shot.frame.units);
-            vtp::write(&self.path(&name), &mesh, "velocity_m_per_s", shot.time_s)?;
+            vtp::write(&self.path(&name)?, &mesh, "velocity_m_per_s", shot.time_s)?;
             self.surfaces.push(shot.time_s, &name);
-            self.surfaces.write(&self.path("surface.pvd"))?;
+            self.surfaces.write(&self.path("surface.pvd")?)?;
         }
         for probe in probes {
             self.probe(probe, shot)?;
@@ -89,15 +105,15 @@ impl<'a> Files<'a> {
         match probe.measure {
             Measure::Profile { along } => {
                 let rows = profile(along, self.setup, fields, &frame.units);
-                table(&file("profile", "csv"), &PROFILE_COLUMNS, &rows)
+                table(&file("profile", "csv")?, &PROFILE_COLUMNS, &rows)
             }
             Measure::SurfaceProfile { along, at_m, above_m } => {
                 let rows = frame.section(along, at_m, above_m, self.setup, fields);
-                table(&file("section", "csv"), &SECTION_COLUMNS, &rows)?;
+                table(&file("section", "csv")?, &SECTION_COLUMNS, &rows)?;
                 self.sections.push(Section { probe: name.clone(), time_s: shot.time_s, rows });
                 Ok(())
             }
-            Measure::DepthMap { above_m } => self.map(&file("depth", "vti"), shot, above_m),
+            Measure::DepthMap { above_m } => self.map(&file("depth", "vti")?, shot, above_m),
             _ => Ok(()),
         }
     }
@@ -135,7 +151,7 @@ impl<'a> Files<'a> {
         if !self.setup.fluid_of_cell.is_empty() {
             image = image.mask("fluid", &self.setup.fluid_of_cell);
         }
-        image.write(&self.path(name))
+        image.write(&self.path(name)?)
     }
 
     /// Bed, depth and surface of all columns as an image of one layer.

@@ -1,5 +1,7 @@
 //! The grains in a fluid: which there are, their files, their books.
 
+use std::sync::Arc;
+
 use crate::coupling::Immersed;
 use crate::output::OutputError;
 use crate::plan::coupled::Coupled;
@@ -7,12 +9,12 @@ use crate::run::grains::books::{self, fingerprint};
 use crate::run::grains::files::Files;
 use crate::run::grains::pictures;
 use crate::run::grains::population::Population;
-use crate::run::measure::Probes;
 use crate::run::measure::contacts::Contacts;
 use crate::run::measure::grains::Grains;
 use crate::run::recorder::Recorder;
 use crate::run::summary::{CoupledPart, CouplingPart};
 use crate::solver::run::Run;
+use crate::state::{State, StateError, Tape};
 use crate::units::Units;
 
 /// The grains in a fluid.
@@ -31,9 +33,22 @@ impl<'a> InFluid<'a> {
         Self {
             coupled,
             population: Population::new(plan, size_m, grains.dem()),
-            files: Files::new(plan, size_m, &recorder.path("")),
+            files: Files::new(plan, size_m, Arc::clone(recorder.folder())),
             contacts: Contacts::new(&plan.walls),
         }
+    }
+
+    /// Writes or reads everything but what the run itself keeps; takes out of that the grains that had left.
+    ///
+    /// # Errors
+    /// As [`State::state`].
+    pub(crate) fn state(&mut self, run: &mut dyn Run, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { population, files, contacts, coupled: _ } = self;
+        if let Some(keep) = population.state(tape)? {
+            run.leave(&keep);
+        }
+        files.state(tape)?;
+        contacts.state(tape)
     }
 
     /// The grains as they are at `time`, s.
@@ -56,20 +71,20 @@ impl<'a> InFluid<'a> {
         self.files.snapshot(&self.population.view(grains.dem(), time))
     }
 
-    /// Tables a scene can start from, and pictures.
-    pub fn finish(
+    /// Tables a scene can start from.
+    pub(crate) fn tables(&self, grains: &Immersed, time: f64) -> Result<(), OutputError> {
+        self.files.tables(&self.population.view(grains.dem(), time))
+    }
+
+    /// The grains seen from the side.
+    pub(crate) fn picture(
         &self,
         grains: &Immersed,
         time: f64,
         recorder: &Recorder,
-        probes: &Probes,
-        title: &str,
     ) -> Result<(), OutputError> {
         let view = self.population.view(grains.dem(), time);
-        self.files.tables(&view)?;
-        pictures::plots(recorder, probes, title)?;
-        let size_m = self.coupled.scene.domain.size_m;
-        pictures::picture(&recorder.path("plots"), &self.coupled.grains, size_m, &view)
+        pictures::picture(recorder, &self.coupled.grains, self.coupled.scene.domain.size_m, &view)
     }
 
     /// The books at a time, s.

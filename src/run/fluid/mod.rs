@@ -7,8 +7,10 @@ mod mesh;
 mod pictures;
 mod stop;
 
-use super::driver::Experiment;
+use std::sync::Arc;
+
 use super::error::RunError;
+use super::experiment::Experiment;
 use super::load_summary::LoadSummary;
 use super::measure::fields::max_speed;
 use super::measure::fluid::{Fluid, Frame};
@@ -18,6 +20,7 @@ use super::measure::rest::{self, Pace};
 use super::measure::{Probes, State};
 use super::recorder::Recorder;
 use super::schedule::between_rows;
+use super::series_plots;
 use super::stop::StopReport;
 use super::summary::Parts;
 use crate::output::OutputError;
@@ -25,6 +28,7 @@ use crate::plan::Plan;
 use crate::scene::{Measure, RestMeasure, Scene};
 use crate::solver::run::{Backend, Fields, Run};
 use crate::solver::steady::{SteadyOutcome, Watch, push};
+use crate::state::{State as _, StateError, Tape, part};
 use files::{Files, Shot};
 use grains::InFluid;
 use pictures::Plots;
@@ -79,7 +83,7 @@ impl<'a> Flow<'a> {
             fields: run.fields(),
             mass_at_start: run.totals().mass_excess,
             frame: Frame::new(scene, plan.units),
-            files: Files::new(&plan.setup, &recorder.path("")),
+            files: Files::new(&plan.setup, Arc::clone(recorder.folder())),
             watch: None,
             scene,
             plan,
@@ -207,14 +211,14 @@ impl Experiment for Flow<'_> {
         row
     }
 
-    fn write_fields(&mut self, _: &Recorder) -> Result<(), OutputError> {
+    fn write_fields(&mut self) -> Result<(), OutputError> {
         let covered = self.run.grains().map(|grains| {
             let cells = 0..self.plan.setup.cells();
             cells.map(|cell| u8::from(grains.is_covered(cell))).collect::<Vec<u8>>()
         });
         let (time_s, covered) = (self.time_s(), covered.as_deref());
         let shot = Shot { time_s, fields: &self.fields, frame: &self.frame, covered };
-        self.files.snapshot(&shot, self.probes.iter().map(|(probe, _)| probe))
+        self.files.snapshot(&shot, self.probes.iter().map(|listed| &listed.probe))
     }
 
     fn write_grains(&mut self) -> Result<(), OutputError> {
@@ -227,6 +231,10 @@ impl Experiment for Flow<'_> {
 
     fn finish(&self, recorder: &Recorder) -> Result<(), OutputError> {
         let title = &self.plan.numbers.title;
+        let grains = self.grains.as_ref().zip(self.run.grains());
+        if let Some((part, grains)) = grains {
+            part.tables(grains, self.time_s())?;
+        }
         let plots = Plots {
             recorder,
             title,
@@ -236,9 +244,10 @@ impl Experiment for Flow<'_> {
             sections: &self.files.sections,
             has_grains: self.grains.is_some(),
         };
+        series_plots::draw(recorder, &self.probes, title)?;
         plots.draw(&self.probes)?;
-        let Some((part, grains)) = self.grains.as_ref().zip(self.run.grains()) else { return Ok(()) };
-        part.finish(grains, self.time_s(), recorder, &self.probes, title)
+        let Some((part, grains)) = grains else { return Ok(()) };
+        part.picture(grains, self.time_s(), recorder)
     }
 
     fn loads(&self) -> Vec<LoadSummary> {
@@ -248,6 +257,31 @@ impl Experiment for Flow<'_> {
     fn line(&self) -> String {
         let speed = self.plan.units.velocity_to_si(max_speed(&self.fields));
         format!("largest speed {speed:.4e} m/s")
+    }
+
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self {
+            run,
+            probes,
+            files,
+            grains,
+            loads,
+            mass_at_start,
+            watch,
+            scene: _,
+            plan: _,
+            fields: _,
+            frame: _,
+        } = self;
+        if let Some(grains) = grains {
+            grains.state(run.as_mut(), tape)?;
+        }
+        run.state(tape)?;
+        probes.state(tape)?;
+        files.state(tape)?;
+        loads.state(tape)?;
+        mass_at_start.state(tape)?;
+        part(watch, tape)
     }
 
     fn parts(&self) -> Parts {

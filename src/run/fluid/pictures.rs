@@ -1,7 +1,5 @@
 //! Plots and pictures of a fluid.
 
-use std::ops::Range;
-
 use super::files::Section;
 use crate::free_surface::Kind;
 use crate::geometry::Axis as Direction;
@@ -32,15 +30,14 @@ pub(super) struct Plots<'a> {
 }
 
 impl Plots<'_> {
-    /// Every probe about the fluid, speed and depth.
+    /// What probes write into files, speed and depth.
     ///
     /// # Errors
     /// I/O.
     pub(crate) fn draw(&self, probes: &Probes) -> Result<(), OutputError> {
-        for ((_, columns), (probe, about_grains)) in self.recorder.groups().iter().zip(probes.iter()) {
-            if !about_grains {
-                self.columns(probe, columns.clone())?;
-                self.file(probe)?;
+        for listed in probes.iter() {
+            if let Some(name) = listed.file_plot() {
+                self.file(&listed.probe, &name)?;
             }
         }
         self.speed_picture()?;
@@ -52,59 +49,17 @@ impl Plots<'_> {
         Ok(())
     }
 
-    /// A plot per column of a probe; of a force one for each of its parts.
-    fn columns(&self, probe: &Probe, columns: Range<usize>) -> Result<(), OutputError> {
-        if let Measure::Torque { .. } = probe.measure {
-            return self.series_plot(&format!("torque_{}", probe.name), columns);
-        }
-        if probe.measure.loaded_solid().is_none() {
-            for column in columns {
-                let name = format!("series_{}", self.recorder.series().columns[column].name);
-                self.series_plot(&name, column..column + 1)?;
-            }
-            return Ok(());
-        }
-        let parts = [
-            ("force", 0..3),
-            ("impulse", 3..6),
-            ("wetted_area", 6..12),
-            ("contact", 12..15),
-            ("contact_impulse", 16..19),
-        ];
-        for (what, range) in parts.into_iter().filter(|(_, range)| range.end <= columns.len()) {
-            let range = columns.start + range.start..columns.start + range.end;
-            self.series_plot(&format!("{what}_{}", probe.name), range)?;
-        }
-        Ok(())
-    }
-
     /// A plot of what a probe writes into files.
-    fn file(&self, probe: &Probe) -> Result<(), OutputError> {
+    fn file(&self, probe: &Probe, file: &str) -> Result<(), OutputError> {
         match probe.measure {
-            Measure::Profile { along } => self.profile_plot(&probe.name, along),
-            Measure::SurfaceProfile { along, .. } => self.section_plot(&probe.name, along),
-            Measure::DepthMap { above_m } => self.depth_picture(&format!("depth_{}", probe.name), above_m),
+            Measure::Profile { along } => self.profile_plot(&probe.name, file, along),
+            Measure::SurfaceProfile { along, .. } => self.section_plot(&probe.name, file, along),
+            Measure::DepthMap { above_m } => self.depth_picture(file, above_m),
             _ => Ok(()),
         }
     }
 
-    /// Columns of the time series in one plot; those that are zero throughout only when alone.
-    fn series_plot(&self, file: &str, range: Range<usize>) -> Result<(), OutputError> {
-        let (series, alone) = (self.recorder.series(), range.len() == 1);
-        let first = &series.columns[range.start];
-        let unit = if first.unit == "-" { "" } else { first.unit.as_str() };
-        let label = if alone { first.name.as_str() } else { file };
-        let mut plot = Plot::new(self.title, Axis::linear("time", "s"), Axis::linear(label, unit));
-        for column in range {
-            let points: Vec<[f64; 2]> = series.rows.iter().map(|row| [row[0], row[column]]).collect();
-            if alone || points.iter().any(|point| point[1] != 0.0) {
-                plot = plot.with(Curve::line(&series.columns[column].name, points));
-            }
-        }
-        self.svg(&format!("{file}.svg"), &svg::draw(&plot)?)
-    }
-
-    fn profile_plot(&self, name: &str, along: Direction) -> Result<(), OutputError> {
+    fn profile_plot(&self, name: &str, file: &str, along: Direction) -> Result<(), OutputError> {
         debug_assert_eq!(PROFILE_COLUMNS[1].0, "velocity_x");
         let rows = profile(along, self.setup, self.fields, &self.frame.units);
         let x = Axis::linear(along.letter().to_string(), "m");
@@ -115,11 +70,11 @@ impl Plots<'_> {
                 plot = plot.with(Curve::line(format!("velocity {letter}"), points));
             }
         }
-        self.svg(&format!("profile_{name}.svg"), &svg::draw(&plot)?)
+        self.svg(&format!("{file}.svg"), &svg::draw(&plot)?)
     }
 
     /// Bed and surface of a section at up to six of the times written.
-    fn section_plot(&self, name: &str, along: Direction) -> Result<(), OutputError> {
+    fn section_plot(&self, name: &str, file: &str, along: Direction) -> Result<(), OutputError> {
         debug_assert_eq!((SECTION_COLUMNS[1].0, SECTION_COLUMNS[3].0), ("bed", "surface"));
         let shots: Vec<_> = self.sections.iter().filter(|section| section.probe == name).collect();
         let x = Axis::linear(along.letter().to_string(), "m");
@@ -137,7 +92,7 @@ impl Plots<'_> {
             let points = shot.rows.iter().map(|row| [row[0], if row[2] > 0.0 { row[3] } else { row[1] }]);
             plot = plot.with(Curve::line(format!("{:.4} s", shot.time_s), points.collect()));
         }
-        self.svg(&format!("section_{name}.svg"), &svg::draw(&plot)?)
+        self.svg(&format!("{file}.svg"), &svg::draw(&plot)?)
     }
 
     /// The plane that shows most: the middle one normal to the shortest axis; with a free surface an
@@ -225,6 +180,6 @@ impl Plots<'_> {
     }
 
     fn svg(&self, name: &str, text: &str) -> Result<(), OutputError> {
-        atomic::write(&self.recorder.path("plots").join(name), text.as_bytes())
+        atomic::write(&self.recorder.folder().plot(name)?, text.as_bytes())
     }
 }

@@ -1,6 +1,7 @@
 //! Files of grains, in a fluid or without.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::walls;
 use crate::output::OutputError;
@@ -8,22 +9,32 @@ use crate::output::csv::Series;
 use crate::output::pvd::Collection;
 use crate::output::vtp::{Cells, PolyData};
 use crate::plan::grains::{COLUMNS, GrainPlan};
+use crate::run::folder::Folder;
 use crate::run::view::View;
+use crate::state::{State, StateError, Tape};
 
 /// Knows the folder and what has been written.
 pub(in crate::run) struct Files<'a> {
-    folder: PathBuf,
+    folder: Arc<Folder>,
     plan: &'a GrainPlan,
     size_m: [f64; 3],
     collections: [(&'static str, Collection); 4],
     written: usize,
 }
 
+impl State for Files<'_> {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { collections, written, folder: _, plan: _, size_m: _ } = self;
+        collections.iter_mut().try_for_each(|(_, collection)| collection.state(tape))?;
+        written.state(tape)
+    }
+}
+
 impl<'a> Files<'a> {
     /// Of a plan in a box of edges `size_m`, m.
-    pub fn new(plan: &'a GrainPlan, size_m: [f64; 3], folder: &Path) -> Self {
+    pub fn new(plan: &'a GrainPlan, size_m: [f64; 3], folder: Arc<Folder>) -> Self {
         Self {
-            folder: folder.to_path_buf(),
+            folder,
             plan,
             size_m,
             collections: ["grains", "spheres", "contacts", "walls"].map(|name| (name, Collection::default())),
@@ -31,8 +42,8 @@ impl<'a> Files<'a> {
         }
     }
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.join(name)
+    fn path(&self, name: &str) -> Result<PathBuf, OutputError> {
+        self.folder.file(name)
     }
 
     /// Grains, their spheres, contacts and walls now.
@@ -43,7 +54,7 @@ impl<'a> Files<'a> {
         let wanted = [true, self.plan.numbers.clumps > 0, true, moving && walls::any(pieces, faces)];
         for kind in (0..4).filter(|&kind| wanted[kind]) {
             let name = format!("{}_{:06}.vtp", self.collections[kind].0, self.written);
-            let path = self.path(&name);
+            let path = self.path(&name)?;
             match kind {
                 0 => self.bodies(grains, &path)?,
                 1 => self.spheres(grains, &path)?,
@@ -52,7 +63,7 @@ impl<'a> Files<'a> {
             }
             let (stem, collection) = &mut self.collections[kind];
             collection.push(grains.time, &name);
-            collection.write(&self.folder.join(format!("{stem}.pvd")))?;
+            collection.write(&self.folder.file(&format!("{stem}.pvd"))?)?;
         }
         self.written += 1;
         Ok(())
@@ -117,7 +128,7 @@ impl<'a> Files<'a> {
                 row.extend(self.orientation(grains, i));
                 table.push(&row)?;
             }
-            table.write(&self.path(&format!("grains_final_{name}.csv")))?;
+            table.write(&self.path(&format!("grains_final_{name}.csv"))?)?;
         }
         Ok(())
     }

@@ -7,8 +7,10 @@ pub(super) mod population;
 mod stop;
 mod walls;
 
-use super::driver::Experiment;
+use std::sync::Arc;
+
 use super::error::RunError;
+use super::experiment::Experiment;
 use super::load_summary::LoadSummary;
 use super::measure::grains::Grains;
 use super::measure::loads::{Loads, of_walls, start_of_walls};
@@ -17,6 +19,7 @@ use super::measure::rest::{self, Pace};
 use super::measure::{Probes, State};
 use super::recorder::Recorder;
 use super::schedule::between_rows;
+use super::series_plots;
 use super::stop::StopReport;
 use super::summary::Parts;
 use super::view::View;
@@ -26,6 +29,7 @@ use crate::output::OutputError;
 use crate::plan::grains::GrainPlan;
 use crate::scene::dry::DryScene;
 use crate::scene::{Measure, RestMeasure};
+use crate::state::{State as _, StateError, Tape};
 use files::Files;
 use population::Population;
 
@@ -67,7 +71,7 @@ impl<'a> Dry<'a> {
             population: Population::new(plan, size_m, &dem),
             probes,
             loads,
-            files: Files::new(plan, size_m, &recorder.path("")),
+            files: Files::new(plan, size_m, Arc::clone(recorder.folder())),
             scene,
             plan,
             dem,
@@ -147,7 +151,7 @@ impl Experiment for Dry<'_> {
         self.probes.row(&State { fluid: None, grains: Some(grains), contacts: None })
     }
 
-    fn write_fields(&mut self, _: &Recorder) -> Result<(), OutputError> {
+    fn write_fields(&mut self) -> Result<(), OutputError> {
         Ok(())
     }
 
@@ -158,8 +162,8 @@ impl Experiment for Dry<'_> {
     fn finish(&self, recorder: &Recorder) -> Result<(), OutputError> {
         let view = self.view();
         self.files.tables(&view)?;
-        pictures::plots(recorder, &self.probes, &self.plan.numbers.title)?;
-        pictures::picture(&recorder.path("plots"), self.plan, self.scene.domain.size_m, &view)
+        series_plots::draw(recorder, &self.probes, &self.plan.numbers.title)?;
+        pictures::picture(recorder, self.plan, self.scene.domain.size_m, &view)
     }
 
     fn loads(&self) -> Vec<LoadSummary> {
@@ -174,6 +178,17 @@ impl Experiment for Dry<'_> {
         };
         let contacts = self.dem.pair_counts().1;
         format!("largest speed {:.4e} m/s, {contacts} contacts{left}", view.max_speed())
+    }
+
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { dem, population, probes, loads, files, scene: _, plan: _ } = self;
+        if let Some(keep) = population.state(tape)? {
+            dem.retain(&keep, population.walls());
+        }
+        dem.state(tape)?;
+        probes.state(tape)?;
+        loads.state(tape)?;
+        files.state(tape)
     }
 
     fn parts(&self) -> Parts {

@@ -1,82 +1,21 @@
-//! Plots of what probes say about grains, and the grains seen from the side.
-
-use std::ops::Range;
-use std::path::Path;
+//! The grains seen from the side.
 
 use crate::geometry::Axis as Direction;
-use crate::output::csv::Series;
 use crate::output::discs::{self, Disc, Discs};
-use crate::output::plot::{Axis, Plot, Series as Curve};
-use crate::output::{OutputError, atomic, svg};
+use crate::output::{OutputError, atomic};
 use crate::plan::grains::GrainPlan;
-use crate::run::measure::Probes;
 use crate::run::recorder::Recorder;
 use crate::run::view::View;
 
-/// A figure per unit for every probe about grains.
-pub(in crate::run) fn plots(recorder: &Recorder, probes: &Probes, title: &str) -> Result<(), OutputError> {
-    let folder = recorder.path("plots");
-    for ((name, columns), (_, about_grains)) in recorder.groups().iter().zip(probes.iter()) {
-        if about_grains {
-            series_plots(&folder, title, recorder.series(), name, columns.clone())?;
-        }
-    }
-    Ok(())
-}
-
-/// A figure per unit for the columns of a probe.
-fn series_plots(
-    folder: &Path,
-    title: &str,
-    series: &Series,
-    name: &str,
-    columns: Range<usize>,
-) -> Result<(), OutputError> {
-    let mut from = columns.start;
-    // Neighbouring columns of one unit share a figure.
-    while from < columns.end {
-        let unit = &series.columns[from].unit;
-        let same = (from..columns.end).take_while(|&c| &series.columns[c].unit == unit).count();
-        let first = series.columns[from].name.as_str();
-        // Vectors go by their name without the component.
-        let vector = if same > 1 { first.strip_suffix("_x").unwrap_or(first) } else { first };
-        let file = if same == columns.len() { name } else { vector };
-        series_plot(folder, title, series, file, from..from + same)?;
-        from += same;
-    }
-    Ok(())
-}
-
-fn series_plot(
-    folder: &Path,
-    title: &str,
-    series: &Series,
-    file: &str,
-    range: Range<usize>,
-) -> Result<(), OutputError> {
-    let first = &series.columns[range.start];
-    let unit = if first.unit == "-" { "" } else { first.unit.as_str() };
-    let alone = range.len() == 1;
-    let mut plot = Plot::new(title, Axis::linear("time", "s"), Axis::linear(file, unit));
-    for column in range {
-        let points: Vec<[f64; 2]> = series.rows.iter().map(|row| [row[0], row[column]]).collect();
-        if alone || points.iter().any(|point| point[1] != 0.0) {
-            plot = plot.with(Curve::line(&series.columns[column].name, points));
-        }
-    }
-    let text = svg::draw(&plot)?;
-    atomic::write(&folder.join(format!("series_{file}.svg")), text.as_bytes())
-}
-
-/// Draws the grains as seen from the side; `plots` is the folder.
+/// Draws the grains as seen from the side.
 pub(in crate::run) fn picture(
-    plots: &Path,
+    recorder: &Recorder,
     plan: &GrainPlan,
     size_m: [f64; 3],
     grains: &View<'_>,
 ) -> Result<(), OutputError> {
     let text = discs::draw(&side_view(plan, size_m, grains));
-    atomic::write(&plots.join("grains.svg"), text.as_bytes())
+    atomic::write(&recorder.folder().plot("grains.svg")?, text.as_bytes())
 }
 
 /// All spheres seen along the shortest axis of the box, but never from above.

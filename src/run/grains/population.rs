@@ -3,6 +3,7 @@
 use crate::dem::{Dem, Setup, Shape, keep_marked};
 use crate::plan::grains::GrainPlan;
 use crate::run::view::{Left, View};
+use crate::state::{State, StateError, Tape};
 
 /// The grains still there, and those that have left.
 pub(in crate::run) struct Population {
@@ -40,6 +41,28 @@ impl Population {
             open: plan.open,
             size_m,
         }
+    }
+
+    /// Writes or reads which grains there are; after reading, of a population at time 0, which of all grains that is, if some have
+    /// left.
+    ///
+    /// # Errors
+    /// As [`State::state`].
+    pub(crate) fn state(&mut self, tape: &mut Tape<'_>) -> Result<Option<Vec<bool>>, StateError> {
+        let Self { setup, ids, left, start, open: _, size_m: _ } = self;
+        let all = ids.clone();
+        ids.state(tape)?;
+        left.state(tape)?;
+        start.state(tape)?;
+        if !tape.reads() || *ids == all {
+            return Ok(None);
+        }
+        let keep: Vec<bool> = all.iter().map(|id| ids.binary_search(id).is_ok()).collect();
+        if keep.iter().filter(|stays| **stays).count() != ids.len() {
+            return Err(StateError::Malformed("its grains are none of the scene"));
+        }
+        keep_marked(&mut setup.grains, &keep);
+        Ok(Some(keep))
     }
 
     /// The grains as they are at `time`, s.

@@ -4,6 +4,7 @@ use super::quantity::{Quantity, several, vector};
 use crate::coupling::Immersed;
 use crate::dem::V3;
 use crate::plan::grains::Walls;
+use crate::state::{State, StateError, Tape, fixed, state};
 
 /// Force on a solid since the last row, and since time 0.
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,6 +22,15 @@ struct OnSolid {
 pub(in crate::run) struct Contacts<'a> {
     walls: &'a Walls,
     on: Vec<OnSolid>,
+}
+
+state!(OnSolid: sum steps peak impulse);
+
+impl State for Contacts<'_> {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { on, walls: _ } = self;
+        fixed(on, tape)
+    }
 }
 
 impl<'a> Contacts<'a> {

@@ -3,6 +3,7 @@
 use crate::dem::V3;
 use crate::geometry::Axis;
 use crate::run::view::View;
+use crate::state::state;
 
 /// A plane, and what has crossed it since it was first looked at.
 #[derive(Clone, Debug)]
@@ -16,6 +17,8 @@ pub(super) struct Crossings {
     /// The side each grain was on, by its number at time 0; nothing before the first look.
     sides: Vec<i64>,
 }
+
+state!(Crossings: mass_kg number sides; but normal at_m);
 
 impl Crossings {
     pub fn new(normal: Axis, at_m: f64) -> Self {

@@ -9,13 +9,12 @@ use crate::geometry::Axis;
 use crate::plan::grains::GrainPlan;
 use crate::run::view::View;
 use crate::scene::Target;
+use crate::scene::series::CLASSES;
 
 /// Share of the mass a pile leaves out at each end when the scene does not say.
 const SHARE: f64 = 0.005;
 /// Share of the mass beyond a front when the scene does not say.
 const FRONT_SHARE: f64 = 0.02;
-/// Size classes when the scene does not say.
-const CLASSES: u32 = 3;
 
 /// The grains at one time.
 #[derive(Clone, Copy)]

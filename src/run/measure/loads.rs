@@ -10,6 +10,7 @@ use crate::plan::Plan;
 use crate::plan::grains::{GrainPlan, Walls};
 use crate::run::load_summary::{LoadInstant, LoadPeaks, LoadSummary};
 use crate::scene::{Measure, Scene, Target};
+use crate::state::{State, StateError, Tape, fixed, state};
 
 /// The loads that a scene asks for.
 pub(in crate::run) struct Loads {
@@ -32,6 +33,15 @@ struct Gauge {
 
 /// The largest so far, by force, by its components and by overturning moment: size, time and load.
 type Peaks = [Option<(f64, f64, Wrench)>; 5];
+
+state!(Gauge: impulse raw mean windowed; but probe measure about_m up);
+
+impl State for Loads {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { list, step_s: _ } = self;
+        fixed(list, tape)
+    }
+}
 
 impl Loads {
     /// Of all `force` and `torque` probes.
@@ -64,7 +74,7 @@ impl Loads {
                 windowed: Peaks::default(),
             })
         };
-        Self { list: probes.iter().filter_map(|(probe, _)| gauge(probe)).collect(), step_s }
+        Self { list: probes.iter().filter_map(|listed| gauge(&listed.probe)).collect(), step_s }
     }
 
     /// Whether there are any.

@@ -20,7 +20,9 @@ use grains::Grains;
 use quantity::{Quantity, several};
 
 use crate::scene::dry::DryScene;
-use crate::scene::{Measure, Probe, Scene, Subject};
+use crate::scene::series::{self, Listed};
+use crate::scene::{Measure, Scene, Subject};
+use crate::state::{self, StateError, Tape, fixed, part};
 
 /// What there is to be measured at one time.
 #[derive(Clone, Copy)]
@@ -33,9 +35,7 @@ pub(super) struct State<'a> {
 
 /// A probe and what it has gathered so far.
 struct Gauge {
-    probe: Probe,
-    /// What the words mean that fluid and grains share.
-    subject: Subject,
+    listed: Listed,
     /// What has crossed its plane, if it has one.
     crossings: Option<Crossings>,
 }
@@ -45,76 +45,74 @@ pub(super) struct Probes {
     list: Vec<Gauge>,
 }
 
+impl state::State for Gauge {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { crossings, listed: _ } = self;
+        part(crossings, tape)
+    }
+}
+
+impl state::State for Probes {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self { list } = self;
+        fixed(list, tape)
+    }
+}
+
 impl Probes {
-    /// Of a scene with fluid: largest speed and kinetic energy when nothing about the fluid has a column; and with
-    /// grains what [`Self::of_grains`] says.
+    /// Of a scene with fluid, and with grains if there are any.
     pub(crate) fn of_flow(scene: &Scene) -> Self {
-        let mut fluid = scene.output.probes.clone();
-        if fluid.iter().all(|probe| probe.measure.is_file()) {
-            fluid.push(named("max_speed", Measure::MaxSpeed));
-            fluid.push(named("kinetic_energy", Measure::KineticEnergy));
-        }
-        let mut list = gauges(fluid, Subject::Fluid);
-        if scene.grains.is_some() {
-            list.extend(gauges(or_books(&scene.output.grain_probes), Subject::Grains));
-        }
-        Self { list }
+        Self::new(series::of_flow(scene))
     }
 
-    /// Of a scene without fluid: energies and contacts when it names none.
+    /// Of a scene without fluid.
     pub(crate) fn of_grains(scene: &DryScene) -> Self {
-        Self { list: gauges(or_books(&scene.output.probes), Subject::Grains) }
+        Self::new(series::of_grains(scene))
     }
 
-    /// The probes, and whether they are about grains.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (&Probe, bool)> {
-        self.list.iter().map(|gauge| (&gauge.probe, gauge.probe.measure.is_about_grains(gauge.subject)))
+    fn new(list: Vec<Listed>) -> Self {
+        let gauge = |listed: Listed| {
+            let crossings = match listed.probe.measure {
+                Measure::Flux { normal, at_m } => Some(Crossings::new(normal, at_m)),
+                _ => None,
+            };
+            Gauge { listed, crossings }
+        };
+        Self { list: list.into_iter().map(gauge).collect() }
+    }
+
+    /// The probes.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Listed> {
+        self.list.iter().map(|gauge| &gauge.listed)
     }
 
     /// The columns of every probe at one time.
     pub(crate) fn row(&mut self, state: &State<'_>) -> Vec<(String, Vec<Quantity>)> {
-        let row = |gauge: &mut Gauge| (gauge.probe.name.clone(), gauge.measure(state).unwrap_or_default());
+        let row = |gauge: &mut Gauge| {
+            let found = gauge.measure(state).unwrap_or_default();
+            let names = || found.iter().map(|quantity| (&quantity.part, quantity.unit));
+            let declared = gauge.listed.columns();
+            debug_assert!(names().eq(declared.iter().map(|column| (&column.part, column.unit))));
+            (gauge.listed.probe.name.clone(), found)
+        };
         self.list.iter_mut().map(row).collect()
     }
-}
-
-fn named(name: &str, measure: Measure) -> Probe {
-    Probe { name: name.to_owned(), measure }
-}
-
-/// Energies and contacts in place of nothing.
-fn or_books(probes: &[Probe]) -> Vec<Probe> {
-    if probes.is_empty() {
-        return vec![named("energy", Measure::Energies), named("contacts", Measure::Contacts)];
-    }
-    probes.to_vec()
-}
-
-fn gauges(probes: Vec<Probe>, subject: Subject) -> Vec<Gauge> {
-    let gauge = |probe: Probe| {
-        let crossings = match probe.measure {
-            Measure::Flux { normal, at_m } => Some(Crossings::new(normal, at_m)),
-            _ => None,
-        };
-        Gauge { probe, subject, crossings }
-    };
-    probes.into_iter().map(gauge).collect()
 }
 
 impl Gauge {
     /// What the probe says; `None` where the scene lacks what it needs, which its check has refused.
     fn measure(&mut self, state: &State<'_>) -> Option<Vec<Quantity>> {
         let (fluid, grains) = (state.fluid.as_ref(), state.grains.as_ref());
-        Some(match &self.probe.measure {
-            Measure::KineticEnergy => match self.subject {
+        Some(match &self.listed.probe.measure {
+            Measure::KineticEnergy => match self.listed.subject {
                 Subject::Fluid => fluid?.kinetic_energy(),
                 Subject::Grains => grains?.kinetic_energy(),
             },
-            Measure::MaxSpeed => match self.subject {
+            Measure::MaxSpeed => match self.listed.subject {
                 Subject::Fluid => fluid?.max_speed(),
                 Subject::Grains => grains?.max_speed(),
             },
-            Measure::Mass => match self.subject {
+            Measure::Mass => match self.listed.subject {
                 Subject::Fluid => fluid?.mass(),
                 Subject::Grains => grains?.mass(),
             },

@@ -2,6 +2,8 @@
 
 use std::collections::VecDeque;
 
+use crate::state::state;
+
 /// Most parts that a window is kept in.
 const PARTS: u64 = 256;
 
@@ -11,6 +13,8 @@ pub(in crate::run) struct Wrench {
     pub force: [f64; 3],
     pub moment: [f64; 3],
 }
+
+state!(Wrench: force moment);
 
 impl Wrench {
     /// Both together.
@@ -40,6 +44,8 @@ pub(super) struct MovingMean {
     sum: Wrench,
     steps: u64,
 }
+
+state!(MovingMean: done sum steps; but per_part parts);
 
 impl MovingMean {
     /// Over about so many steps, at least one.

@@ -1,5 +1,6 @@
 //! Value checks. The first problem found is reported; order is that of the file.
 
+pub(super) mod collisions;
 mod coupled;
 pub(super) mod domain;
 pub(super) mod fluid;
@@ -27,5 +28,6 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     coupled::check(&at, scene)?;
     numerics::check_numerics(&at, &scene.numerics)?;
     numerics::check_stop(&at, &scene.stop)?;
-    output::check(&at, scene)
+    output::check(&at, scene)?;
+    collisions::check(&at, &super::series::of_flow(scene))
 }

@@ -39,7 +39,7 @@ pub(in crate::scene) fn probes(
 ) -> Result<(), SceneError> {
     for (i, probe) in list.iter().enumerate() {
         let path = format!("{}[{i}]", place.path);
-        at.name(&format!("{path}.name"), &probe.name, names)?;
+        at.file_name(&format!("{path}.name"), &probe.name, names)?;
         let path = format!("{path}.measure");
         is_there(at, &path, probe.measure.needs(place.subject), place)?;
         measure(at, &path, &probe.measure, place)?;

@@ -3,6 +3,7 @@
 use super::check_place::placement;
 use super::{ClumpMembers, Contact, ContactLaw, DryScene, GrainSolid};
 use crate::geometry::{Axis, Shape};
+use crate::scene::check::collisions;
 use crate::scene::check::domain::boundaries;
 use crate::scene::check::fluid::check_gravity;
 use crate::scene::check::numerics::check_arrested;
@@ -10,6 +11,7 @@ use crate::scene::check::output::cadence;
 use crate::scene::check::probes::{Place, known, probes};
 use crate::scene::checker::Checker;
 use crate::scene::probe::Subject;
+use crate::scene::series::of_grains;
 use crate::scene::{KeyRule, SceneError, SceneProblem};
 
 /// Checks every value that can be judged without placing grains.
@@ -34,7 +36,8 @@ pub(crate) fn check(scene: &DryScene) -> Result<(), SceneError> {
         check_arrested(&at, &arrested, end)?;
     }
     cadence(&at, "output.series", scene.output.series, end)?;
-    output(&at, scene)
+    output(&at, scene)?;
+    collisions::check(&at, &of_grains(scene))
 }
 
 /// Checks what a scene with fluid, seen as its grains see it, says about them, but for outputs.
@@ -176,10 +179,17 @@ fn sets(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
     at.some("grains.sets", scene.grains.sets.len(), "a set of grains")?;
     let materials: Vec<String> = scene.grains.materials.iter().map(|m| m.name.clone()).collect();
     let clumps: Vec<String> = scene.grains.clumps.iter().map(|c| c.name.clone()).collect();
-    let mut names = Vec::new();
+    let mut names: Vec<String> = Vec::new();
     for (i, set) in scene.grains.sets.iter().enumerate() {
         let path = |key: &str| format!("grains.sets[{i}].{key}");
-        at.name(&path("name"), &set.name, &mut names)?;
+        let twin = names.iter().find(|other| other.eq_ignore_ascii_case(&set.name)).cloned();
+        at.file_name(&path("name"), &set.name, &mut names)?;
+        at.ensure(twin.is_none(), &path("name"), || SceneProblem::NamesCollide {
+            what: "the file",
+            name: format!("grains_final_{}.csv", set.name),
+            by: set.name.clone(),
+            other: twin,
+        })?;
         optional_name(at, &path("material"), "material", set.material.as_ref(), &materials)?;
         optional_name(at, &path("clump"), "clump", set.clump.as_ref(), &clumps)?;
         let random = path("random_speed_m_per_s");

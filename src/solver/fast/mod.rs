@@ -22,6 +22,7 @@ pub(crate) mod rim;
 mod run;
 pub(crate) mod sources;
 pub(crate) mod stage;
+mod state;
 pub(crate) mod stores;
 pub(crate) mod surface;
 pub(crate) mod task;

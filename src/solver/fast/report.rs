@@ -14,6 +14,7 @@ use crate::solver::cell::{self, State};
 use crate::solver::observe::{self, Observed};
 use crate::solver::physics::Physics;
 use crate::solver::run::{Fields, Ledger, Load, Run, Stopped, Totals};
+use crate::state::{StateError, Tape};
 
 impl<P: Physics, E: Element> FastRun<P, E> {
     /// Block and place of every fluid cell, with its number in the box, in the order of the box.
@@ -160,6 +161,10 @@ impl<P: Physics, E: Element> Run for FastRun<P, E> {
 
     fn leave(&mut self, keep: &[bool]) {
         self.take_grains_out(keep);
+    }
+
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        self.pass_state(tape)
     }
 
     fn grains_mut(&mut self) -> Option<&mut Immersed> {

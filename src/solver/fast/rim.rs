@@ -8,6 +8,7 @@ use crate::lattice::Q;
 use crate::lattice::unroll::{directions, three};
 use crate::solver::cell::{Situation, State, wall_correction};
 use crate::solver::physics::Physics;
+use crate::state::state;
 
 /// What is kept of a cell at a wall or open face.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub(crate) struct Rim {
     /// ω⁺ of the last collision.
     pub omega: f64,
 }
+
+state!(Rim: f correction velocity omega);
 
 impl Default for Rim {
     fn default() -> Self {

@@ -3,6 +3,7 @@
 use crate::boundary::cut::{CutLink, body, cut_links};
 use crate::boundary::links::Links;
 use crate::setup::Setup;
+use crate::state::state;
 
 /// The cut cells of a run, in the order of [`Setup::cuts`].
 #[derive(Clone, Debug, Default)]
@@ -12,6 +13,8 @@ pub(super) struct Cuts {
     /// What comes back, by link.
     pub(super) returned: Vec<f64>,
 }
+
+state!(Cuts: returned; but cells links);
 
 /// Bytes of a cut cell.
 pub(super) const CUT_CELL: usize = size_of::<CutAt>();

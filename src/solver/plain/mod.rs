@@ -13,6 +13,7 @@ pub(crate) mod memory;
 mod passes;
 mod report;
 mod run;
+mod state;
 mod surface;
 
 use crate::collision::{Bgk, CentralMoment, CollisionChoice};

@@ -11,6 +11,7 @@ use crate::solver::cell::{Cell, State};
 use crate::solver::observe::{self, Observed};
 use crate::solver::physics::Physics;
 use crate::solver::run::{Fields, Ledger, Load, Run, Stopped, Totals};
+use crate::state::{StateError, Tape};
 
 impl<P: Physics, S: SurfacePhysics> Observed for PlainRun<P, S> {
     type At = usize;
@@ -121,6 +122,10 @@ impl<P: Physics, S: SurfacePhysics> Run for PlainRun<P, S> {
 
     fn leave(&mut self, keep: &[bool]) {
         self.take_grains_out(keep);
+    }
+
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        self.pass_state(tape)
     }
 
     fn allocated_bytes(&self) -> u64 {

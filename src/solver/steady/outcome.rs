@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::ROUNDING;
+use crate::state::state;
 
 /// How an attempt to become steady ended, or how it stands. Printed, it gives the residual of a steady flow and says why
 /// another is not.
@@ -76,3 +77,5 @@ impl fmt::Display for SteadyOutcome {
         }
     }
 }
+
+state!(SteadyOutcome: steps residual remaining imbalance swing alternates steady; but tolerance);

@@ -1,6 +1,7 @@
 //! Accelerations for the surface force with inertia \[F3\]; nothing of this exists without that rule.
 
 use crate::solver::fast::block::put;
+use crate::state::state;
 
 /// Three numbers per cell of a block: first those along x, then y, then z.
 type Vectors = Vec<f64>;
@@ -16,6 +17,8 @@ pub(crate) struct Inertia {
     /// Whether there has been a collision before the last one.
     pub(super) started: bool,
 }
+
+state!(Inertia: velocity before acceleration started);
 
 /// The vector of a cell.
 pub(super) fn get(vectors: &[f64], local: usize) -> [f64; 3] {
@@ -43,6 +46,13 @@ impl Inertia {
     pub(crate) fn drop_block(&mut self, number: usize) {
         for list in [&mut self.velocity, &mut self.before, &mut self.acceleration] {
             list[number] = Vec::new();
+        }
+    }
+
+    /// Gives all blocks up.
+    pub(in crate::solver::fast) fn clear(&mut self) {
+        for list in [&mut self.velocity, &mut self.before, &mut self.acceleration] {
+            list.clear();
         }
     }
 

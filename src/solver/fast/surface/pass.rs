@@ -46,28 +46,34 @@ impl<P: Physics, E: Element> FastRun<P, E> {
 
     /// Gives up blocks without fluid.
     fn drop_dry_blocks(&mut self) {
-        let Some(surface) = &mut self.surface else { return };
         for number in 0..self.blocks.len() {
+            let Some(surface) = &self.surface else { return };
             let dry =
                 surface.lanes[number].iter().all(|lane| lane.fluid == 0) && surface.covered[number] == 0;
             if dry && !self.old[number].is_empty() {
-                self.layout.set_block(self.blocks[number].place, NONE);
-                self.old[number] = Default::default();
-                self.new[number] = Default::default();
-                for list in [&mut self.density, &mut self.lag, &mut surface.fill, &mut surface.returned] {
-                    list[number] = Vec::new();
-                }
-                self.rim[number] = Vec::new();
-                if let Some(inertia) = &mut surface.inertia {
-                    inertia.drop_block(number);
-                }
-                surface.kinds[number] = Vec::new();
-                surface.lanes[number] = Vec::new();
-                surface.flow[number] = Vec::new();
-                self.blocks[number].clear();
-                surface.free.push(number);
+                self.give_up(number);
             }
         }
+    }
+
+    /// Gives up a block; its number is free for another.
+    pub(in crate::solver::fast) fn give_up(&mut self, number: usize) {
+        let Some(surface) = &mut self.surface else { return };
+        self.layout.set_block(self.blocks[number].place, NONE);
+        self.old[number] = Default::default();
+        self.new[number] = Default::default();
+        for list in [&mut self.density, &mut self.lag, &mut surface.fill, &mut surface.returned] {
+            list[number] = Vec::new();
+        }
+        self.rim[number] = Vec::new();
+        if let Some(inertia) = &mut surface.inertia {
+            inertia.drop_block(number);
+        }
+        surface.kinds[number] = Vec::new();
+        surface.lanes[number] = Vec::new();
+        surface.flow[number] = Vec::new();
+        self.blocks[number].clear();
+        surface.free.push(number);
     }
 
     /// Closes the mass of the last step with the densities that this collision found.

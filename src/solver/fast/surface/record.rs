@@ -4,9 +4,10 @@ use crate::free_surface::Kind;
 use crate::free_surface::force::interface_force;
 use crate::lattice::Q;
 use crate::setup::SurfaceForce;
+use crate::state::state;
 
 /// A cell whose populations are kept: interface, or liquid since the last step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct InterfaceCell {
     /// Place in the block.
     pub local: u16,
@@ -25,6 +26,9 @@ pub(crate) struct InterfaceCell {
     /// Mean smoothed acceleration of the liquid neighbours; zero unless the surface force has inertia.
     pub acceleration: [f64; 3],
 }
+
+state!(InterfaceCell: local touches f rho velocity mass dry acceleration);
+state!(Lanes: fluid interface kept);
 
 /// Lanes of a pack, a bit each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

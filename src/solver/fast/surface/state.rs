@@ -11,6 +11,7 @@ use crate::free_surface::force::interface_force;
 use crate::setup::{FreeSurface, SurfaceForce};
 use crate::solver::books::Books;
 use crate::solver::run::Load;
+use crate::state::{State, StateError, Tape, part};
 
 /// The surface of a run.
 pub struct Surface {
@@ -68,6 +69,21 @@ impl Surface {
             covered: Vec::new(),
             open: false,
             rules,
+        }
+    }
+
+    /// Gives all blocks up.
+    pub(in crate::solver::fast) fn clear(&mut self) {
+        for list in [&mut self.fill, &mut self.flow, &mut self.returned] {
+            list.clear();
+        }
+        self.kinds.clear();
+        self.lanes.clear();
+        self.interface.clear();
+        self.covered.clear();
+        self.free.clear();
+        if let Some(inertia) = &mut self.inertia {
+            inertia.clear();
         }
     }
 
@@ -132,5 +148,42 @@ impl Surface {
         set(&mut lane.fluid, kind.is_fluid());
         set(&mut lane.interface, kind == Kind::Interface);
         set(&mut lane.kept, kept);
+    }
+}
+
+impl State for Surface {
+    fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
+        let Self {
+            kinds,
+            fill,
+            flow,
+            lanes,
+            interface,
+            parked,
+            books,
+            loads,
+            counts,
+            inertia,
+            free,
+            returned,
+            covered,
+            open,
+            rules: _,
+            nothing: _,
+        } = self;
+        kinds.state(tape)?;
+        fill.state(tape)?;
+        flow.state(tape)?;
+        lanes.state(tape)?;
+        interface.state(tape)?;
+        parked.state(tape)?;
+        books.state(tape)?;
+        loads.state(tape)?;
+        counts.state(tape)?;
+        part(inertia, tape)?;
+        free.state(tape)?;
+        returned.state(tape)?;
+        covered.state(tape)?;
+        open.state(tape)
     }
 }

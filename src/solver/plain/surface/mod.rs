@@ -23,6 +23,7 @@ use crate::solver::books::Books;
 use crate::solver::cell::Cell;
 use crate::solver::loads::recorded;
 use crate::solver::run::{Load, StartError};
+use crate::state::state;
 pub use equations::{Collided, Design, SurfaceLink, SurfacePhysics};
 
 /// Kinds of cells, their masses and books.
@@ -51,6 +52,10 @@ pub(super) struct Surface<S> {
     pub(super) books: Books,
     pub(super) loads: Vec<Load>,
 }
+
+state!(Surface<S>:
+    kinds mass fill velocity acceleration velocity_before dry touches parked special books loads; but rules equations
+);
 
 impl<S: SurfacePhysics> Surface<S> {
     /// Kinds and fill as drawn; `None` where fluid fills every cell that is not solid and no grains come.
