@@ -197,7 +197,10 @@ fn take_sub_steps(
         Dem::new(&grains.setup).map_err(|error| {
             let mut refused = refusal(view, &grains.sets, error);
             // Here the step comes from their number.
-            if matches!(*refused.problem, PlanProblem::GrainTimeStep { .. }) {
+            if matches!(
+                *refused.problem,
+                PlanProblem::GrainTimeStep { .. } | PlanProblem::GrainStepUnstable { .. }
+            ) {
                 SUB_STEPS.clone_into(&mut refused.path);
             }
             refused

@@ -112,23 +112,23 @@ impl GrainPlan {
         };
         setup.design_speed_m_s = design;
         let refused = |error: DemError| refusal(scene, &sets, error);
-        let shortest = match dem::shortest_contact(&setup) {
+        let pace = match dem::pace(&setup) {
             // Any step is short enough for it, so only a time that is no time is refused.
-            Err(DemError::TimeStep { .. }) => Err(at("grains", NO_CONTACT_TIME)),
+            Err(DemError::TimeStep { .. } | DemError::Unstable { .. }) => Err(at("grains", NO_CONTACT_TIME)),
             other => other.map_err(refused),
         };
-        let Some(shortest) = shortest? else {
+        let Some(pace) = pace? else {
             return Err(at("grains.sets", PlanProblem::NothingMoves));
         };
-        if !(shortest.seconds > 0.0 && shortest.seconds.is_finite()) {
+        if !(pace.suggested_s > 0.0 && pace.shortest.seconds.is_finite()) {
             return Err(at("grains", NO_CONTACT_TIME));
         }
-        let dt = scene.grains.numerics.time_step_s.unwrap_or(shortest.seconds / setup.steps_per_contact);
+        let dt = scene.grains.numerics.time_step_s.unwrap_or(pace.suggested_s);
         setup.time_step_s = Some(dt);
         let steps = count_steps(scene, dt).map_err(|problem| at("stop.end_time_s", problem))?;
         // The checks that need neighbours: overlaps, the time step, periods.
         let dem = dem::Dem::new(&setup).map_err(refused)?;
-        let numbers = numbers::numbers(scene, &setup, &dem, &shortest, steps, speed);
+        let numbers = numbers::numbers(scene, &setup, &dem, &pace, steps, speed);
         Ok(Self { setup, sets, walls, open, steps, numbers })
     }
 
@@ -196,6 +196,10 @@ pub(super) fn refusal(scene: &DryScene, sets: &[(String, Range<usize>)], error: 
         DemError::TimeStep { found_s, pair, contact_s, speed_m_s, steps, limit_s } => (
             "grains.numerics.time_step_s",
             PlanProblem::GrainTimeStep { found_s, pair, contact_s, speed_m_s, steps, limit_s },
+        ),
+        DemError::Unstable { found_s, pair, motion, speed_m_s, limit_s, advised_s } => (
+            "grains.numerics.time_step_s",
+            PlanProblem::GrainStepUnstable { found_s, pair, motion, speed_m_s, limit_s, advised_s },
         ),
         DemError::PeriodTooShort { axis, length_m, needed_m } => {
             ("domain.size_m", PlanProblem::GrainPeriod { axis, length_m, needed_m })

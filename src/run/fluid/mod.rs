@@ -142,13 +142,16 @@ impl Experiment for Flow<'_> {
     fn advance(&mut self, steps: u64) -> Result<(), Box<StopReport>> {
         let population = self.grains.as_ref().map(|grains| &grains.population);
         let number = |grain: u32| population.map_or(grain as usize, |all| all.number(grain as usize));
-        match self.run.advance(steps) {
-            Ok(()) => Ok(()),
-            Err(stopped) => {
-                let failure = self.run.grains().and_then(|grains| grains.failure());
-                Err(Box::new(stop::report(&self.scene.file, self.plan, &stopped, failure, &number)))
-            }
+        if let Err(stopped) = self.run.advance(steps) {
+            let failure = self.run.grains().and_then(|grains| grains.failure());
+            return Err(Box::new(stop::report(&self.scene.file, self.plan, &stopped, failure, &number)));
         }
+        let now = (self.step(), self.time_s());
+        let report = match (&mut self.grains, self.run.grains()) {
+            (Some(part), Some(grains)) => part.audit(&self.scene.file, grains, now),
+            _ => None,
+        };
+        report.map_or(Ok(()), |report| Err(Box::new(report)))
     }
 
     fn tidy(&mut self) {
