@@ -31,7 +31,7 @@ struct Meeting {
     radii: [f64; 2],
     /// h, cells.
     gap: f64,
-    /// 1/(1/m₁ + 1/m₂), lattice units.
+    /// 1/(1/m₁ + 1/m₂), lattice units; infinite between driven grains and walls, which no step can throw off.
     mass: f64,
 }
 
@@ -141,8 +141,14 @@ impl Gaps {
             });
         if stale {
             let reach = 0.5 * self.rules.cutoff * dx + 2.0 * margin;
-            let grown: Vec<Member> =
-                members.iter().map(|m| Member { radius: m.radius + reach, ..*m }).collect();
+            // Lists leave out pairs that cannot push each other apart; here all that move do.
+            let grown: Vec<Member> = members
+                .iter()
+                .map(|m| {
+                    let inverse_mass = if at_rest(m) { 0.0 } else { 1.0 };
+                    Member { radius: m.radius + reach, inverse_mass, ..*m }
+                })
+                .collect();
             self.list = PairList::find(&grown, config.dem.period.0, 0.0);
             self.seen = members.iter().map(|m| m.position).collect();
         }
@@ -162,8 +168,12 @@ impl Gaps {
         self.on_walls.clear();
         self.on_walls.resize(scenery.walls.len(), V3::zeros());
         let mut found = Vec::new();
-        for (k, m) in members.iter().enumerate().filter(|(_, m)| m.inverse_mass > 0.0) {
+        for (k, m) in members.iter().enumerate() {
             for wall in 0..scenery.walls.len() {
+                let motion = &scenery.walls[wall].motion;
+                if at_rest(m) && motion.velocity == V3::zeros() && motion.spin == V3::zeros() {
+                    continue;
+                }
                 found.clear();
                 near(dem, wall, m, limit, &mut found);
                 if !found.is_empty() {
@@ -230,7 +240,7 @@ impl Gaps {
             let inverse = (a.inverse_mass + b.inverse_mass) * scales.inverse_mass;
             let gap = (distance - a.radius - b.radius) * scales.length;
             let dry = !(wet(a.body as usize) && wet(b.body as usize));
-            if gap >= self.rules.cutoff || distance == 0.0 || inverse == 0.0 || dry {
+            if gap >= self.rules.cutoff || distance == 0.0 || dry {
                 continue;
             }
             let meeting = Meeting {
@@ -369,6 +379,11 @@ fn shares(bodies: &Bodies, config: &Suspension, acting: &[Acting]) -> Vec<f64> {
     }
     let most = STIFFEST_GRAIN * f64::from(config.sub_steps.max(1));
     rates.into_iter().map(|rate| if rate > most { most / rate } else { 1.0 }).collect()
+}
+
+/// Whether a member is driven and does not move: between such ones no gap changes.
+fn at_rest(m: &Member) -> bool {
+    m.inverse_mass == 0.0 && m.velocity == V3::zeros() && m.spin == V3::zeros()
 }
 
 /// Points of a wall near a member, nearer to its surface than `reach` (m).

@@ -139,7 +139,7 @@ impl Immersed {
         &self.loads
     }
 
-    /// Mean contact and lubrication force and torque of the last step, by grain, lattice units.
+    /// Mean contact and lubrication force and torque of the last step, by grain, free or driven, lattice units.
     #[must_use]
     pub fn contact_loads(&self) -> &[[f64; 6]] {
         &self.contact

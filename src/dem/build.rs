@@ -77,6 +77,19 @@ pub(crate) struct Pace {
     pub suggested_s: f64,
 }
 
+impl Pace {
+    /// Where nothing can be pushed, with a step for it, s.
+    pub(crate) fn idle(step_s: f64) -> Self {
+        let (seconds, limit_s, advised_s) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        let nobody = String::from("none: all grains are driven");
+        Self {
+            shortest: Shortest { seconds, pair: nobody.clone() },
+            stable: Stable { limit_s, advised_s, pair: nobody, motion: "anywhere" },
+            suggested_s: step_s,
+        }
+    }
+}
+
 /// What limits the time step of a set-up, for showing it; `None` if nothing can touch.
 ///
 /// # Errors

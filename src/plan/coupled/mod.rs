@@ -171,7 +171,8 @@ impl Started {
             };
             return Err(at(rule_path, problem));
         }
-        let mut grains = GrainPlan::finish(&view, placed, design)?;
+        // Grains that are all driven take whole steps of the fluid.
+        let mut grains = GrainPlan::finish(&view, placed, design, Some(view.stop.end_time_s))?;
         let lubrication = lubrication(scene.coupling().lubrication);
         let stepping = sub_steps(scene, units, &grains, lubrication, gap_viscosity(facts, scales))
             .map_err(|problem| at(SUB_STEPS, problem))?;

@@ -66,7 +66,7 @@ impl GrainPlan {
     pub fn with_memory(scene: &DryScene, available: Option<u64>) -> Result<Self, PlanError> {
         let placed = Self::placed(scene, available)?;
         let speed = speed::design(scene, &placed.setup);
-        Self::finish(scene, placed, speed)
+        Self::finish(scene, placed, speed, None)
     }
 
     /// Walls and grains, without a time step.
@@ -93,11 +93,17 @@ impl GrainPlan {
         Ok(Placed { setup, sets, walls, open })
     }
 
-    /// Time step and checks; `speed` is that of the fastest impact to be expected, m/s.
+    /// Time step and checks; `speed` is that of the fastest impact to be expected, m/s; `idle_step_s`: the step where nothing
+    /// can be pushed, s; without one such a scene is refused.
     ///
     /// # Errors
     /// Grains that overlap; a time step too long.
-    pub(super) fn finish(scene: &DryScene, placed: Placed, speed: f64) -> Result<Self, PlanError> {
+    pub(super) fn finish(
+        scene: &DryScene,
+        placed: Placed,
+        speed: f64,
+        idle_step_s: Option<f64>,
+    ) -> Result<Self, PlanError> {
         let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
         let Placed { mut setup, sets, walls, open } = placed;
         let given = scene.grains.numerics.design_speed_m_per_s;
@@ -107,7 +113,10 @@ impl GrainPlan {
                 PlanProblem::GrainScale { quantity: "the speed of the fastest impact" },
             ));
         }
-        let Some(design) = given.or(Some(speed).filter(|&v| v > 0.0)) else {
+        // Where nothing can be pushed, no speed is too low.
+        let idle_step_s = idle_step_s.filter(|_| setup.grains.iter().all(|grain| grain.driven));
+        let least = idle_step_s.map(|_| 1.0);
+        let Some(design) = given.or(Some(speed).filter(|&v| v > 0.0)).or(least) else {
             return Err(at("grains.numerics", PlanProblem::NoDesignSpeed));
         };
         setup.design_speed_m_s = design;
@@ -117,10 +126,10 @@ impl GrainPlan {
             Err(DemError::TimeStep { .. } | DemError::Unstable { .. }) => Err(at("grains", NO_CONTACT_TIME)),
             other => other.map_err(refused),
         };
-        let Some(pace) = pace? else {
+        let Some(pace) = pace?.or(idle_step_s.map(dem::Pace::idle)) else {
             return Err(at("grains.sets", PlanProblem::NothingMoves));
         };
-        if !(pace.suggested_s > 0.0 && pace.shortest.seconds.is_finite()) {
+        if !(pace.suggested_s > 0.0 && pace.suggested_s.is_finite()) {
             return Err(at("grains", NO_CONTACT_TIME));
         }
         let dt = scene.grains.numerics.time_step_s.unwrap_or(pace.suggested_s);
