@@ -57,7 +57,14 @@ pub enum DemError {
         "time step {found_s:.3e} s makes energy {motion} of {pair}: the spring and the dashpot of this contact are stable below \
          {limit_s:.3e} s at the design speed {speed_m_s} m/s; use {advised_s:.3e} s"
     )]
-    Unstable { found_s: f64, pair: String, motion: &'static str, speed_m_s: f64, limit_s: f64, advised_s: f64 },
+    Unstable {
+        found_s: f64,
+        pair: String,
+        motion: &'static str,
+        speed_m_s: f64,
+        limit_s: f64,
+        advised_s: f64,
+    },
     #[error(
         "periodic axis {axis} is {length_m} m long; grains of this size need more than {needed_m} m, or a pair would meet itself twice"
     )]

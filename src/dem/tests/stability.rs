@@ -21,7 +21,8 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
 fn draw(random: &mut Random, k: usize) -> (Setup, String) {
     let e = libm::pow(10.0, -6.0 * random.unit());
     let young_pa = libm::pow(10.0, between(random, 5.5, 11.0));
-    let (r, size) = (libm::pow(10.0, between(random, -4.0, -1.0)), libm::pow(10.0, between(random, -1.5, 0.0)));
+    let (r, size) =
+        (libm::pow(10.0, between(random, -4.0, -1.0)), libm::pow(10.0, between(random, -1.5, 0.0)));
     let v = 0.003 * (young_pa / 2650.0).sqrt() * between(random, 0.1, 1.0);
     let normal = match k % 4 {
         0 => NormalLaw::Tsuji { restitution: e },
@@ -29,7 +30,9 @@ fn draw(random: &mut Random, k: usize) -> (Setup, String) {
             // From elastic to a dashpot that stops everything.
             let m = 2650.0 * r * r * r;
             let stiffness = young_pa * r.sqrt();
-            NormalLaw::ViscoElastic { time_s: 0.1 / e.sqrt() / libm::pow(stiffness / m, 0.4) / libm::pow(v, 0.2) }
+            NormalLaw::ViscoElastic {
+                time_s: 0.1 / e.sqrt() / libm::pow(stiffness / m, 0.4) / libm::pow(v, 0.2),
+            }
         }
         2 => NormalLaw::TsujiAlpha { alpha: 1.0 / e.sqrt() - 1.0 },
         _ => NormalLaw::Linear {

@@ -55,7 +55,7 @@ pub(super) struct Started {
     /// Fastest grain relative to the fluid, m/s.
     pub slip: f64,
     /// Fastest wall, driven grain, or grain at time 0, m/s.
-    given: f64,
+    pub given: f64,
     /// Speed that contacts are planned for, m/s.
     design: f64,
 }

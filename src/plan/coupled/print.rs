@@ -59,7 +59,11 @@ fn rules(f: &mut fmt::Formatter<'_>, n: &CoupledNumbers) -> fmt::Result {
     if n.contact_time_s.is_finite() {
         let [resolved, contact] = [n.steps_per_contact, n.contact_time_s].map(short);
         let speed = short(n.design_speed_m_per_s);
-        row(f, label, format_args!("{steps}: {resolved} in the shortest contact of {contact} s at {speed} m/s"))?;
+        row(
+            f,
+            label,
+            format_args!("{steps}: {resolved} in the shortest contact of {contact} s at {speed} m/s"),
+        )?;
     } else {
         row(f, label, format_args!("{steps}: all grains are driven, no contact to resolve"))?;
     }
