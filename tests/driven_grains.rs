@@ -123,6 +123,15 @@ fn exact_gaps_push_both_sides() {
                 // A free grain's share comes from a change of momentum of 1e-4 of the momentum itself: 12 digits.
                 assert!(sum.abs() < 1e-9 * on_wall.norm(), "{driven:?}: {on_wall} {loads:?}");
             }
+            // So is the angular momentum about the origin, about which the floor turns.
+            let (_, turned) = grains.lubrication_wrench(0);
+            let mut sum = turned;
+            for (grain, load) in loads.iter().enumerate() {
+                let centre = V3::from(grains.centre(grain));
+                sum += V3::new(load[3], load[4], load[5]) + centre.cross(&V3::new(load[0], load[1], load[2]));
+            }
+            // Centres move by a thousandth of a cell in a step, and forces are known at its sub-steps.
+            assert!(sum.norm() < 1e-3 * turned.norm() && turned.norm() > 1.0, "{driven:?}: {sum} {turned}");
             if step == 0 {
                 first.push((on_wall, loads.to_vec()));
             }
