@@ -19,15 +19,16 @@ use program::lahar;
 /// # Source
 /// Brenner 1961, Chem. Eng. Sci. 16, 242.
 fn brenner(distance: f64) -> f64 {
-    let alpha = distance.acosh();
+    let alpha = libm::acosh(distance);
+    let sinh = libm::sinh;
     let term = |n: f64| {
-        let s = ((n + 0.5) * alpha).sinh();
-        let above = 2.0 * ((2.0 * n + 1.0) * alpha).sinh() + (2.0 * n + 1.0) * (2.0 * alpha).sinh();
-        let below = 4.0 * s * s - (2.0 * n + 1.0) * (2.0 * n + 1.0) * alpha.sinh() * alpha.sinh();
-        n * (n + 1.0) / ((2.0 * n - 1.0) * (2.0 * n + 3.0)) * (above / below - 1.0)
+        let odd = 2.0 * n + 1.0;
+        let (s, flat) = (sinh(0.5 * odd * alpha), odd * sinh(alpha));
+        let above = 2.0 * sinh(odd * alpha) + odd * sinh(2.0 * alpha);
+        n * (n + 1.0) / ((2.0 * n - 1.0) * (2.0 * n + 3.0)) * (above / (4.0 * s * s - flat * flat) - 1.0)
     };
     // Terms fall like e^(−2nα); α is 0.2 at a distance of 1.02.
-    4.0 / 3.0 * alpha.sinh() * (1..200).map(|n| term(f64::from(n))).sum::<f64>()
+    4.0 / 3.0 * sinh(alpha) * (1..200).map(|n| term(f64::from(n))).sum::<f64>()
 }
 
 /// A sphere of radius 3 cells driven towards a floor, and nothing else: what fluid and gap do to it together is within 8 % of
