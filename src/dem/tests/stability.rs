@@ -43,8 +43,8 @@ fn draw(random: &mut Random, k: usize) -> (Setup, String) {
     };
     let pair = PairProperties {
         normal,
-        friction: if k % 3 == 0 { 0.0 } else { between(random, 0.05, 2.0) },
-        rolling_friction: if k % 5 == 0 { between(random, 0.0, 0.5) } else { 0.0 },
+        friction: if k.is_multiple_of(3) { 0.0 } else { between(random, 0.05, 2.0) },
+        rolling_friction: if k.is_multiple_of(5) { between(random, 0.0, 0.5) } else { 0.0 },
         tangential_damping: between(random, 0.0, 2.0),
     };
     let mut s = setup(Material { young_pa, ..soft() }, pair);
@@ -52,7 +52,7 @@ fn draw(random: &mut Random, k: usize) -> (Setup, String) {
     let place = |random: &mut Random, radius: f64, x: f64, v: f64| {
         let across = V3::new(0.0, between(random, -1.0, 1.0) * v, between(random, -1.0, 1.0) * v);
         let spin = V3::from_fn(|_, _| between(random, -1.0, 1.0) * v / radius);
-        let grain = if k % 7 == 0 {
+        let grain = if k.is_multiple_of(7) {
             Grain::clump(0, 0.5 * radius, V3::x() * x, random.orientation(), 0)
         } else {
             Grain::sphere(radius, V3::x() * x, 0)
@@ -67,7 +67,7 @@ fn draw(random: &mut Random, k: usize) -> (Setup, String) {
     }
     s.design_speed_m_s = 2.0 * v;
     s.start_overlap = 1e-6;
-    s.steps_per_contact = if k % 2 == 0 { 50.0 } else { 20.0 };
+    s.steps_per_contact = if k.is_multiple_of(2) { 50.0 } else { 20.0 };
     (s, format!("{k}: e = {e:.1e}, {pair:?}"))
 }
 
