@@ -1,8 +1,9 @@
 //! Gaps between grains, and between grains and walls, and what the fluid does in them \[C5\].
 
+use super::scenery::{at_rest, near, pivot};
 use crate::dem::bodies::{Bodies, Member};
 use crate::dem::neighbours::PairList;
-use crate::dem::walls::{self, Near};
+use crate::dem::walls;
 use crate::dem::{Dem, V3};
 use crate::rheology::Law;
 use crate::setup::Setup;
@@ -32,7 +33,7 @@ struct Meeting {
     radii: [f64; 2],
     /// h, cells.
     gap: f64,
-    /// 1/(1/m₁ + 1/m₂), lattice units.
+    /// 1/(1/m₁ + 1/m₂), lattice units; infinite between driven grains and walls, which no step can throw off.
     mass: f64,
 }
 
@@ -102,8 +103,9 @@ pub(crate) struct Gaps {
     pairs: Vec<usize>,
     /// Members close to walls.
     walls: Vec<(usize, usize)>,
-    /// Sum over the sub-steps of a step of the forces on each wall, N.
-    on_walls: Vec<V3>,
+    /// Sum over the sub-steps of a step of the forces on each wall, N, and of their torques about the point about which it
+    /// turns, N m.
+    on_walls: Vec<(V3, V3)>,
 }
 
 state!(Gaps: list seen pairs walls on_walls; but rules law);
@@ -122,8 +124,9 @@ impl Gaps {
         }
     }
 
-    /// Force of the gaps on wall `k`, sum over the grains' steps in the last step of the fluid, N.
-    pub(crate) fn on_wall(&self, k: usize) -> V3 {
+    /// Force of the gaps on wall `k` and its torque about the point about which it turns, sums over the grains' steps in the
+    /// last step of the fluid, N and N m.
+    pub(crate) fn on_wall(&self, k: usize) -> (V3, V3) {
         self.on_walls.get(k).copied().unwrap_or_default()
     }
 
@@ -144,8 +147,14 @@ impl Gaps {
             });
         if stale {
             let reach = 0.5 * self.rules.cutoff * dx + 2.0 * margin;
-            let grown: Vec<Member> =
-                members.iter().map(|m| Member { radius: m.radius + reach, ..*m }).collect();
+            // Lists leave out pairs that cannot push each other apart; here all that move do.
+            let grown: Vec<Member> = members
+                .iter()
+                .map(|m| {
+                    let inverse_mass = if at_rest(m) { 0.0 } else { 1.0 };
+                    Member { radius: m.radius + reach, inverse_mass, ..*m }
+                })
+                .collect();
             self.list = PairList::find(&grown, config.dem.period.0, 0.0);
             self.seen = members.iter().map(|m| m.position).collect();
         }
@@ -163,10 +172,14 @@ impl Gaps {
         self.walls.clear();
         let scenery = dem.scenery();
         self.on_walls.clear();
-        self.on_walls.resize(scenery.walls.len(), V3::zeros());
+        self.on_walls.resize(scenery.walls.len(), (V3::zeros(), V3::zeros()));
         let mut found = Vec::new();
-        for (k, m) in members.iter().enumerate().filter(|(_, m)| m.inverse_mass > 0.0) {
+        for (k, m) in members.iter().enumerate() {
             for wall in 0..scenery.walls.len() {
+                let motion = &scenery.walls[wall].motion;
+                if at_rest(m) && motion.velocity == V3::zeros() && motion.spin == V3::zeros() {
+                    continue;
+                }
                 found.clear();
                 near(dem, wall, m, limit, &mut found);
                 if !found.is_empty() {
@@ -208,8 +221,13 @@ impl Gaps {
                 // A member of a clump is off the centre of its grain; periodic images are taken away with it.
                 loads[body].1 += t + arm.cross(&f);
             }
-            if let Some(sum) = wall.and_then(|wall| self.on_walls.get_mut(wall)) {
+            if let (Some((sum, torques)), Some((body, arm))) =
+                (wall.and_then(|wall| self.on_walls.get_mut(wall)), sides[0])
+            {
                 *sum -= f;
+                // What the sphere gets about its centre, and what its force there makes about the wall's point.
+                let of_wall = wall.map_or_else(V3::zeros, |wall| pivot(dem, wall));
+                *torques -= first + (dem.bodies().position[body] + arm - of_wall).cross(&f);
             }
         }
     }
@@ -233,7 +251,7 @@ impl Gaps {
             let inverse = (a.inverse_mass + b.inverse_mass) * scales.inverse_mass;
             let gap = (distance - a.radius - b.radius) * scales.length;
             let dry = !(wet(a.body as usize) && wet(b.body as usize));
-            if gap >= self.rules.cutoff || distance == 0.0 || inverse == 0.0 || dry {
+            if gap >= self.rules.cutoff || distance == 0.0 || dry {
                 continue;
             }
             let meeting = Meeting {
@@ -372,18 +390,4 @@ fn shares(bodies: &Bodies, config: &Suspension, acting: &[Acting]) -> Vec<f64> {
     }
     let most = STIFFEST_GRAIN * f64::from(config.sub_steps.max(1));
     rates.into_iter().map(|rate| if rate > most { most / rate } else { 1.0 }).collect()
-}
-
-/// Points of a wall near a member, nearer to its surface than `reach` (m).
-fn near(dem: &Dem, wall: usize, m: &Member, reach: f64, found: &mut Vec<Near>) {
-    let scenery = dem.scenery();
-    walls::near(
-        &scenery.walls[wall],
-        &scenery.poses[wall],
-        scenery.shifts[wall],
-        &m.position,
-        m.radius + reach,
-        None,
-        found,
-    );
 }

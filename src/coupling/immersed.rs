@@ -173,7 +173,7 @@ impl Immersed {
         &self.loads
     }
 
-    /// Mean contact and lubrication force and torque of the last step, by grain, lattice units.
+    /// Mean contact and lubrication force and torque of the last step, by grain, free or driven, lattice units.
     #[must_use]
     pub fn contact_loads(&self) -> &[[f64; 6]] {
         &self.contact
@@ -209,8 +209,16 @@ impl Immersed {
     /// Mean force of lubrication on a wall of the grains in the last step, N.
     #[must_use]
     pub fn lubrication_on_wall(&self, wall: usize) -> V3 {
-        let sum = self.gaps.as_ref().map_or_else(V3::zeros, |gaps| gaps.on_wall(wall));
-        sum / f64::from(self.config.sub_steps.max(1))
+        self.lubrication_wrench(wall).0
+    }
+
+    /// Mean force of lubrication on a wall of the grains in the last step, N, and torque about the point about which the wall
+    /// turns, N m.
+    #[must_use]
+    pub fn lubrication_wrench(&self, wall: usize) -> (V3, V3) {
+        let sum = self.gaps.as_ref().map(|gaps| gaps.on_wall(wall)).unwrap_or_default();
+        let steps = f64::from(self.config.sub_steps.max(1));
+        (sum.0 / steps, sum.1 / steps)
     }
 
     /// Bytes held, without those of the grains themselves.

@@ -35,6 +35,7 @@ mod predict;
 mod pressure;
 mod refill;
 mod report;
+mod scenery;
 mod subcycle;
 
 pub use crate::setup::suspension::lubrication::{

@@ -29,7 +29,9 @@ impl Immersed {
             return Err(self.stopped(host, grain, Runaway::Grains { grain: grain as u32 }));
         }
         for (grain, before) in before.iter().enumerate() {
-            self.contact[grain] = self.unexplained(grain, before);
+            if !self.is_driven(grain) {
+                self.contact[grain] = self.unexplained(grain, before);
+            }
         }
         let limit = host.setup().speed_limit;
         for grain in 0..self.grains() {
@@ -73,7 +75,11 @@ impl Immersed {
             Some(gaps) => gaps.look(&self.dem, &self.config),
             None => false,
         };
-        if !close {
+        let driven = self.dem.bodies().driven.clone();
+        for grain in &driven {
+            self.contact[*grain as usize] = [0.0; 6];
+        }
+        if !close && driven.is_empty() {
             let (forces, torques) = self.dem.external_mut();
             for (grain, (force, torque)) in loads.iter().enumerate() {
                 (forces[grain], torques[grain]) = (*force, *torque);
@@ -82,7 +88,7 @@ impl Immersed {
         }
         for _ in 0..self.config.sub_steps.max(1) {
             let mut now = loads.clone();
-            if let Some(gaps) = &mut self.gaps {
+            if let (Some(gaps), true) = (&mut self.gaps, close) {
                 let wet = |grain: usize| self.loads[grain].wet_links > 0;
                 gaps.push(&self.dem, &self.config, &wet, &mut now);
             }
@@ -91,8 +97,26 @@ impl Immersed {
                 (forces[grain], torques[grain]) = (*force, *torque);
             }
             self.dem.step(1)?;
+            for grain in &driven {
+                self.sum_driven(*grain as usize, &loads, &now);
+            }
         }
         Ok(())
+    }
+
+    /// Adds the share of one step of the grains to the mean force and torque of contacts and lubrication on a driven grain,
+    /// which its motion does not show; `fluid`, `all`: forces without and with lubrication, by grain.
+    fn sum_driven(&mut self, grain: usize, fluid: &[(V3, V3)], all: &[(V3, V3)]) {
+        let bodies = self.dem.bodies();
+        let force = all[grain].0 - fluid[grain].0 + bodies.force[grain];
+        let torque = all[grain].1 - fluid[grain].1 + bodies.torque[grain];
+        let units = &self.config.units;
+        let newton = units.force_unit() * units.dx_m * units.dx_m * units.dx_m;
+        let steps = f64::from(self.config.sub_steps.max(1));
+        let parts = [force / (newton * steps), torque / (newton * units.dx_m * steps)];
+        for (sum, part) in self.contact[grain].iter_mut().zip(parts.iter().flat_map(|v| v.iter())) {
+            *sum += part;
+        }
     }
 
     /// (m U, J ω) of a grain, lattice units; the second entry is the angular momentum as the grains have it.
@@ -103,9 +127,6 @@ impl Immersed {
 
     /// Mean force and torque that the forces of the fluid and the weight do not explain: contacts and lubrication.
     fn unexplained(&self, grain: usize, (before, turning): &([f64; 6], V3)) -> [f64; 6] {
-        if self.is_driven(grain) {
-            return [0.0; 6];
-        }
         let units = &self.config.units;
         let (now, mass) = (self.motion(grain), self.mass(grain));
         let load = self.loads[grain].total();

@@ -9,6 +9,7 @@ use super::neighbours::PairList;
 use super::rotation::momentum_of;
 use super::setup::{Grain, Shape};
 use super::simulation::{Dem, place};
+use super::stability::{Stable, stable};
 use super::timestep::{FEWEST_STEPS, Shortest, shortest};
 use super::walls::pass::Scenery;
 use super::{Clump, DemError, Setup, V3};
@@ -33,7 +34,7 @@ pub(super) fn build(setup: &Setup) -> Result<Dem, DemError> {
         walls.push(w.clone().checked()?);
     }
     let wall_materials: Vec<u32> = walls.iter().map(|w| w.material as u32).collect();
-    let dt = time_step(setup, &table, &members, &wall_materials)?;
+    let dt = time_step(setup, pace_of(setup, &table, (&bodies, &members, &offsets), &wall_materials))?;
     check_period(setup, &bodies, &members)?;
     for (m, offset) in members.iter_mut().zip(&offsets) {
         place(m, &bodies, offset);
@@ -64,18 +65,54 @@ pub(super) fn build(setup: &Setup) -> Result<Dem, DemError> {
     })
 }
 
-/// The shortest contact of a set-up at its design speed, for showing what limits the time step; `None` if nothing
-/// can touch.
+/// What limits the time step of a set-up at its design speed.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Pace {
+    /// The shortest contact.
+    pub shortest: Shortest,
+    /// Steps that springs and dashpots allow.
+    pub stable: Stable,
+    /// The step that `plan` chooses, s: as many steps in the shortest contact as asked for, and as short as dashpots and
+    /// springs need for books of energy that close.
+    pub suggested_s: f64,
+}
+
+impl Pace {
+    /// Where nothing can be pushed, with a step for it, s.
+    pub(crate) fn idle(step_s: f64) -> Self {
+        let (seconds, limit_s, advised_s) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
+        let nobody = String::from("none: all grains are driven");
+        Self {
+            shortest: Shortest { seconds, pair: nobody.clone() },
+            stable: Stable { limit_s, advised_s, pair: nobody, motion: "anywhere" },
+            suggested_s: step_s,
+        }
+    }
+}
+
+/// What limits the time step of a set-up, for showing it; `None` if nothing can touch.
 ///
 /// # Errors
 /// The bad input that [`Dem::new`] refuses, except for overlaps and the time step itself.
-pub(crate) fn shortest_contact(setup: &Setup) -> Result<Option<Shortest>, DemError> {
+pub(crate) fn pace(setup: &Setup) -> Result<Option<Pace>, DemError> {
     let mut free = setup.clone();
     // Any step will do: only the layout is wanted.
     free.time_step_s = Some(f64::MIN_POSITIVE);
     let dem = build(&free)?;
     let walls: Vec<u32> = dem.scenery.walls.iter().map(|w| w.material as u32).collect();
-    Ok(shortest(&dem.table, &dem.members, &walls, setup.design_speed_m_s))
+    Ok(pace_of(setup, &dem.table, (&dem.bodies, &dem.members, &dem.offsets), &walls))
+}
+
+fn pace_of(
+    setup: &Setup,
+    table: &PairTable,
+    parts: (&Bodies, &[Member], &[V3]),
+    walls: &[u32],
+) -> Option<Pace> {
+    let shortest = shortest(table, parts.1, walls, setup.design_speed_m_s)?;
+    let stable = stable(setup, table, parts, walls)?;
+    let suggested_s = (shortest.seconds / setup.steps_per_contact).min(stable.advised_s);
+    Some(Pace { shortest, stable, suggested_s })
 }
 
 fn check_settings(s: &Setup) -> Result<(), DemError> {
@@ -199,11 +236,13 @@ fn add_body(
     Ok(())
 }
 
-fn time_step(s: &Setup, table: &PairTable, members: &[Member], walls: &[u32]) -> Result<f64, DemError> {
-    let shortest = shortest(table, members, walls, s.design_speed_m_s);
-    let dt = match (s.time_step_s, &shortest) {
+fn time_step(s: &Setup, pace: Option<Pace>) -> Result<f64, DemError> {
+    let dt = match (s.time_step_s, &pace) {
         (Some(dt), _) => dt,
-        (None, Some(t)) => t.seconds / s.steps_per_contact,
+        (None, Some(pace)) => {
+            let asked = pace.shortest.seconds / s.steps_per_contact;
+            if asked <= pace.stable.limit_s { asked } else { pace.suggested_s }
+        }
         (None, None) => {
             return Err(DemError::Setting {
                 what: "time step (s)",
@@ -215,17 +254,28 @@ fn time_step(s: &Setup, table: &PairTable, members: &[Member], walls: &[u32]) ->
     if !(dt > 0.0 && dt.is_finite()) {
         return Err(DemError::Setting { what: "time step (s)", found: dt, allowed: "above 0" });
     }
-    match shortest {
-        Some(t) if dt * FEWEST_STEPS > t.seconds * (1.0 + 1e-12) => Err(DemError::TimeStep {
+    let Some(Pace { shortest, stable, suggested_s }) = pace else { return Ok(dt) };
+    if dt * FEWEST_STEPS > shortest.seconds * (1.0 + 1e-12) {
+        return Err(DemError::TimeStep {
             found_s: dt,
-            pair: t.pair,
-            contact_s: t.seconds,
+            pair: shortest.pair,
+            contact_s: shortest.seconds,
             speed_m_s: s.design_speed_m_s,
             steps: FEWEST_STEPS,
-            limit_s: t.seconds / FEWEST_STEPS,
-        }),
-        _ => Ok(dt),
+            limit_s: (shortest.seconds / FEWEST_STEPS).min(stable.limit_s),
+        });
     }
+    if dt > stable.limit_s * (1.0 + 1e-12) {
+        return Err(DemError::Unstable {
+            found_s: dt,
+            pair: stable.pair,
+            motion: stable.motion,
+            speed_m_s: s.design_speed_m_s,
+            limit_s: stable.limit_s,
+            advised_s: suggested_s,
+        });
+    }
+    Ok(dt)
 }
 
 fn check_period(s: &Setup, b: &Bodies, members: &[Member]) -> Result<(), DemError> {

@@ -54,6 +54,18 @@ pub enum DemError {
     )]
     TimeStep { found_s: f64, pair: String, contact_s: f64, speed_m_s: f64, steps: f64, limit_s: f64 },
     #[error(
+        "time step {found_s:.3e} s makes energy {motion} of {pair}: the spring and the dashpot of this contact are stable below \
+         {limit_s:.3e} s at the design speed {speed_m_s} m/s; use {advised_s:.3e} s"
+    )]
+    Unstable {
+        found_s: f64,
+        pair: String,
+        motion: &'static str,
+        speed_m_s: f64,
+        limit_s: f64,
+        advised_s: f64,
+    },
+    #[error(
         "periodic axis {axis} is {length_m} m long; grains of this size need more than {needed_m} m, or a pair would meet itself twice"
     )]
     PeriodTooShort { axis: char, length_m: f64, needed_m: f64 },

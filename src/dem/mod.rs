@@ -33,6 +33,7 @@ pub(crate) mod rotation;
 pub(crate) mod setup;
 pub(crate) mod simulation;
 mod sphere;
+pub(crate) mod stability;
 mod state;
 pub(crate) mod timestep;
 pub mod union_moments;
@@ -43,7 +44,7 @@ pub mod walls;
 mod tests;
 
 pub use bodies::Bodies;
-pub(crate) use build::shortest_contact;
+pub(crate) use build::{Pace, pace};
 pub use checkpoint::Checkpoint;
 pub use clump::Clump;
 pub use contact::{ContactEquations, StandardContact, restitution};

@@ -89,7 +89,8 @@ pub struct Setup {
     pub period: Period,
     /// m/s².
     pub gravity: V3,
-    /// Step, s; `None` takes the suggested one (`steps_per_contact` steps in the shortest contact).
+    /// Step, s; `None` takes `steps_per_contact` steps in the shortest contact, or what its dashpots and springs need where
+    /// that would make energy.
     pub time_step_s: Option<f64>,
     /// Impact speed the step is chosen for, m/s.
     pub design_speed_m_s: f64,

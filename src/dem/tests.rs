@@ -7,3 +7,4 @@ mod help;
 mod parity;
 mod rotation;
 mod sliding;
+mod stability;

@@ -186,6 +186,21 @@ pub enum PlanProblem {
          way out: leave it out, softer material, or a lower `design_speed_m_per_s`"
     )]
     GrainTimeStep { found_s: f64, pair: String, contact_s: f64, speed_m_s: f64, steps: f64, limit_s: f64 },
+    /// A time step at which the dashpot or the springs of a contact make energy.
+    #[error(
+        "found {found_s:.3e} s\n  \
+         allowed: below {limit_s:.3e} s; beyond, the spring and the dashpot of the contact between {pair} make energy \
+         {motion} at the design speed of {speed_m_s:.4} m/s [D3]\n  \
+         way out: leave it out or take {advised_s:.3e} s, which keeps the books of energy; or less damping"
+    )]
+    GrainStepUnstable {
+        found_s: f64,
+        pair: String,
+        motion: &'static str,
+        speed_m_s: f64,
+        limit_s: f64,
+        advised_s: f64,
+    },
     /// A periodic axis too short.
     #[error(
         "axis {axis}: found {length_m} m\n  \

@@ -6,6 +6,7 @@ mod cost;
 pub mod coupled;
 mod error;
 mod facts;
+mod fastest;
 mod figures;
 pub mod grains;
 mod initial;
@@ -109,11 +110,14 @@ impl Plan {
             .map_err(|problem| at("numerics", problem))?;
         let units = time_step::units(scene, dt);
         let steps = checks::steps(scene, dt).map_err(|problem| at("stop.end_time_s", problem))?;
+        let mut given = scale::given_speeds(&facts, &cells);
+        given.bodies += started.as_ref().map_or(0.0, |started| started.given);
         let (gap, fluid_cells, pool) = (cells.gap, cells.fluid_cells, cells.pool);
         let mut setup = lower::lower(&facts, &units, cells);
         let finished = started
             .map(|started| started.finish(&facts, &units, &scales, &mut setup, rule.path()))
             .transpose()?;
+        setup.speed_limit = fastest::limit(&facts, &units, &given, setup.speed_limit);
         checks::memory(scene, &setup, layout, available).map_err(|problem| at("domain", problem))?;
         checks::finite(&setup).map_err(|problem| at("fluid", problem))?;
         checks::moving_solids(scene, &setup, &units).map_err(|(path, problem)| at(&path, problem))?;

@@ -22,6 +22,26 @@ pub(crate) struct Scales {
     pub force: f64,
 }
 
+/// Speeds that a scene gives, m/s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GivenSpeeds {
+    /// Of the fluid at the start.
+    pub fluid: f64,
+    /// Of walls of the box.
+    pub faces: f64,
+    /// Of solids and grains.
+    pub bodies: f64,
+}
+
+/// Speeds of the fluid at the start and of walls and solids.
+#[must_use]
+pub(super) fn given_speeds(facts: &Facts, cells: &Cells) -> GivenSpeeds {
+    let fastest = wall_speed(facts, cells);
+    let moving = |s: &crate::scene::Solid| s.velocity_m_per_s != [0.0; 3] || s.spin_rad_per_s != [0.0; 3];
+    let bodies = if facts.scene.solids.iter().any(moving) { fastest } else { 0.0 };
+    GivenSpeeds { fluid: initial_scales(facts.scene).0, faces: fastest, bodies }
+}
+
 /// Scales of a scene.
 #[must_use]
 pub(crate) fn scales(facts: &Facts, cells: &Cells) -> Scales {

@@ -128,6 +128,14 @@ pub enum Runaway {
         /// The rounding bound it exceeds.
         bound: f64,
     },
+    /// A box without a free surface has not kept its mass within rounding; the cell is its first.
+    #[error("mass has changed by {residual:.3e} of the whole since the start; rounding allows {bound:.1e}")]
+    Mass {
+        /// Mass gained or lost since the start, relative to the whole.
+        residual: f64,
+        /// The rounding bound it exceeds.
+        bound: f64,
+    },
     /// Density or velocity is not a finite number.
     #[error("density or velocity is not a finite number")]
     NotFinite,

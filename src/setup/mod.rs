@@ -125,6 +125,9 @@ impl Precision {
     }
 }
 
+/// Speed that stops every run, cells per step: 0.7 of that of sound.
+pub(crate) const SPEED_LIMIT: f64 = 0.4;
+
 /// Body force per volume (lattice units); enters as a constant force, not ρg \[L5\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BodyForce {
@@ -308,7 +311,7 @@ impl Setup {
             free_surface: None,
             grains: None,
             loads: false,
-            speed_limit: 0.4,
+            speed_limit: SPEED_LIMIT,
             precision: Precision::Double,
             threads: 1,
         }

@@ -63,7 +63,7 @@ pub(crate) struct Books {
 /// returns, at most half of them: 1.3 units. Streaming and the sums over cells are exact or
 /// in f64. Roundings of neighbouring cells may agree (uniform flow), so the bound grows with the cells and
 /// not with their root.
-const ROUNDINGS: f64 = 32.0;
+pub(crate) const ROUNDINGS: f64 = 32.0;
 
 /// What one step brought in over links: entries of many cells, to be added to the [`Books`] in any order.
 #[derive(Clone, Debug, Default)]

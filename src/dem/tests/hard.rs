@@ -78,7 +78,7 @@ fn bad_settings_and_places_are_refused() {
         s.time_step_s = Some(dt);
         assert!(matches!(fails(s), DemError::Setting { .. }));
     }
-    let limit = shortest_contact(&good()).unwrap().unwrap().seconds;
+    let limit = pace(&good()).unwrap().unwrap().shortest.seconds;
     let mut s = good();
     s.time_step_s = Some(limit / 9.9);
     assert!(matches!(fails(s), DemError::TimeStep { contact_s, .. } if contact_s == limit));

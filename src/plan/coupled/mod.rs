@@ -55,7 +55,7 @@ pub(super) struct Started {
     /// Fastest grain relative to the fluid, m/s.
     pub slip: f64,
     /// Fastest wall, driven grain, or grain at time 0, m/s.
-    given: f64,
+    pub given: f64,
     /// Speed that contacts are planned for, m/s.
     design: f64,
 }
@@ -171,7 +171,8 @@ impl Started {
             };
             return Err(at(rule_path, problem));
         }
-        let mut grains = GrainPlan::finish(&view, placed, design)?;
+        // Grains that are all driven take whole steps of the fluid.
+        let mut grains = GrainPlan::finish(&view, placed, design, Some(view.stop.end_time_s))?;
         let lubrication = lubrication(scene.coupling().lubrication);
         let stepping = sub_steps(scene, units, &grains, lubrication, gap_viscosity(facts, scales))
             .map_err(|problem| at(SUB_STEPS, problem))?;
@@ -197,7 +198,10 @@ fn take_sub_steps(
         Dem::new(&grains.setup).map_err(|error| {
             let mut refused = refusal(view, &grains.sets, error);
             // Here the step comes from their number.
-            if matches!(*refused.problem, PlanProblem::GrainTimeStep { .. }) {
+            if matches!(
+                *refused.problem,
+                PlanProblem::GrainTimeStep { .. } | PlanProblem::GrainStepUnstable { .. }
+            ) {
                 SUB_STEPS.clone_into(&mut refused.path);
             }
             refused

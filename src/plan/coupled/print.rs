@@ -54,18 +54,19 @@ fn rules(f: &mut fmt::Formatter<'_>, n: &CoupledNumbers) -> fmt::Result {
         SubStepsFrom::Lubrication => "chosen for lubrication down to a gap of 0.1 cells",
         SubStepsFrom::Contacts => "chosen for contacts",
     };
-    row(
-        f,
-        "steps in a step of the fluid",
-        format_args!(
-            "{} of {} s, {from}: {} in the shortest contact of {} s at {} m/s",
-            n.sub_steps,
-            short(n.time_step_s),
-            short(n.steps_per_contact),
-            short(n.contact_time_s),
-            short(n.design_speed_m_per_s)
-        ),
-    )?;
+    let steps = format!("{} of {} s, {from}", n.sub_steps, short(n.time_step_s));
+    let label = "steps in a step of the fluid";
+    if n.contact_time_s.is_finite() {
+        let [resolved, contact] = [n.steps_per_contact, n.contact_time_s].map(short);
+        let speed = short(n.design_speed_m_per_s);
+        row(
+            f,
+            label,
+            format_args!("{steps}: {resolved} in the shortest contact of {contact} s at {speed} m/s"),
+        )?;
+    } else {
+        row(f, label, format_args!("{steps}: all grains are driven, no contact to resolve"))?;
+    }
     row(f, "surface, freed cells", format_args!("{}, {}", n.wall, n.refill))?;
     match &n.lubrication {
         None => row(f, "lubrication", format_args!("off")),

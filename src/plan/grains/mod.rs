@@ -66,7 +66,7 @@ impl GrainPlan {
     pub fn with_memory(scene: &DryScene, available: Option<u64>) -> Result<Self, PlanError> {
         let placed = Self::placed(scene, available)?;
         let speed = speed::design(scene, &placed.setup);
-        Self::finish(scene, placed, speed)
+        Self::finish(scene, placed, speed, None)
     }
 
     /// Walls and grains, without a time step.
@@ -93,11 +93,17 @@ impl GrainPlan {
         Ok(Placed { setup, sets, walls, open })
     }
 
-    /// Time step and checks; `speed` is that of the fastest impact to be expected, m/s.
+    /// Time step and checks; `speed` is that of the fastest impact to be expected, m/s; `idle_step_s`: the step where nothing
+    /// can be pushed, s; without one such a scene is refused.
     ///
     /// # Errors
     /// Grains that overlap; a time step too long.
-    pub(super) fn finish(scene: &DryScene, placed: Placed, speed: f64) -> Result<Self, PlanError> {
+    pub(super) fn finish(
+        scene: &DryScene,
+        placed: Placed,
+        speed: f64,
+        idle_step_s: Option<f64>,
+    ) -> Result<Self, PlanError> {
         let at = |path: &str, problem| PlanError::new(&scene.file, path, problem);
         let Placed { mut setup, sets, walls, open } = placed;
         let given = scene.grains.numerics.design_speed_m_per_s;
@@ -107,28 +113,31 @@ impl GrainPlan {
                 PlanProblem::GrainScale { quantity: "the speed of the fastest impact" },
             ));
         }
-        let Some(design) = given.or(Some(speed).filter(|&v| v > 0.0)) else {
+        // Where nothing can be pushed, no speed is too low.
+        let idle_step_s = idle_step_s.filter(|_| setup.grains.iter().all(|grain| grain.driven));
+        let least = idle_step_s.map(|_| 1.0);
+        let Some(design) = given.or(Some(speed).filter(|&v| v > 0.0)).or(least) else {
             return Err(at("grains.numerics", PlanProblem::NoDesignSpeed));
         };
         setup.design_speed_m_s = design;
         let refused = |error: DemError| refusal(scene, &sets, error);
-        let shortest = match dem::shortest_contact(&setup) {
+        let pace = match dem::pace(&setup) {
             // Any step is short enough for it, so only a time that is no time is refused.
-            Err(DemError::TimeStep { .. }) => Err(at("grains", NO_CONTACT_TIME)),
+            Err(DemError::TimeStep { .. } | DemError::Unstable { .. }) => Err(at("grains", NO_CONTACT_TIME)),
             other => other.map_err(refused),
         };
-        let Some(shortest) = shortest? else {
+        let Some(pace) = pace?.or(idle_step_s.map(dem::Pace::idle)) else {
             return Err(at("grains.sets", PlanProblem::NothingMoves));
         };
-        if !(shortest.seconds > 0.0 && shortest.seconds.is_finite()) {
+        if !(pace.suggested_s > 0.0 && pace.suggested_s.is_finite()) {
             return Err(at("grains", NO_CONTACT_TIME));
         }
-        let dt = scene.grains.numerics.time_step_s.unwrap_or(shortest.seconds / setup.steps_per_contact);
+        let dt = scene.grains.numerics.time_step_s.unwrap_or(pace.suggested_s);
         setup.time_step_s = Some(dt);
         let steps = count_steps(scene, dt).map_err(|problem| at("stop.end_time_s", problem))?;
         // The checks that need neighbours: overlaps, the time step, periods.
         let dem = dem::Dem::new(&setup).map_err(refused)?;
-        let numbers = numbers::numbers(scene, &setup, &dem, &shortest, steps, speed);
+        let numbers = numbers::numbers(scene, &setup, &dem, &pace, steps, speed);
         Ok(Self { setup, sets, walls, open, steps, numbers })
     }
 
@@ -196,6 +205,10 @@ pub(super) fn refusal(scene: &DryScene, sets: &[(String, Range<usize>)], error: 
         DemError::TimeStep { found_s, pair, contact_s, speed_m_s, steps, limit_s } => (
             "grains.numerics.time_step_s",
             PlanProblem::GrainTimeStep { found_s, pair, contact_s, speed_m_s, steps, limit_s },
+        ),
+        DemError::Unstable { found_s, pair, motion, speed_m_s, limit_s, advised_s } => (
+            "grains.numerics.time_step_s",
+            PlanProblem::GrainStepUnstable { found_s, pair, motion, speed_m_s, limit_s, advised_s },
         ),
         DemError::PeriodTooShort { axis, length_m, needed_m } => {
             ("domain.size_m", PlanProblem::GrainPeriod { axis, length_m, needed_m })

@@ -5,8 +5,7 @@ use serde::Serialize;
 use super::speed::bytes_per_grain;
 use crate::dem::contact::restitution::hertz_largest_overlap;
 use crate::dem::material::{Compiled, PairLaw};
-use crate::dem::timestep::Shortest;
-use crate::dem::{Dem, Integrator, Setup, Surface};
+use crate::dem::{Dem, Integrator, Pace, Setup, Surface};
 use crate::plan::cost::SPHERE_UPDATES_PER_SECOND;
 use crate::plan::needs::Need;
 use crate::plan::warning::{Warning, holding};
@@ -53,6 +52,8 @@ pub struct GrainNumbers {
     pub time_step_s: f64,
     /// Whether the scene gave it.
     pub time_step_given: bool,
+    /// Step that the dashpots and springs of contacts allow, s.
+    pub damping_step_s: f64,
     /// Steps in the shortest contact.
     pub steps_per_contact: f64,
     /// Steps to the end time.
@@ -85,7 +86,7 @@ pub(super) fn numbers(
     scene: &DryScene,
     setup: &Setup,
     dem: &Dem,
-    shortest: &Shortest,
+    pace: &Pace,
     steps: u64,
     estimated: f64,
 ) -> GrainNumbers {
@@ -115,11 +116,12 @@ pub(super) fn numbers(
         contacts: dem.pair_counts().1,
         design_speed_m_per_s: setup.design_speed_m_s,
         design_speed_given: scene.grains.numerics.design_speed_m_per_s.is_some(),
-        contact_time_s: shortest.seconds,
-        contact_pair: shortest.pair.clone(),
+        contact_time_s: pace.shortest.seconds,
+        contact_pair: pace.shortest.pair.clone(),
         time_step_s: dt,
         time_step_given: scene.grains.numerics.time_step_s.is_some(),
-        steps_per_contact: shortest.seconds / dt,
+        damping_step_s: pace.stable.advised_s,
+        steps_per_contact: pace.shortest.seconds / dt,
         steps,
         end_time_s: scene.stop.end_time_s,
         impact_overlap: impact_overlap(setup),

@@ -51,7 +51,13 @@ fn contacts(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
 
 fn time(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
     writeln!(f, "\nTime")?;
-    let rule = if n.time_step_given { "given" } else { "chosen" };
+    let rule = if n.time_step_given {
+        "given"
+    } else if n.time_step_s < n.damping_step_s {
+        "chosen"
+    } else {
+        "chosen for the damping of contacts"
+    };
     row(
         f,
         "time step",

@@ -9,9 +9,11 @@ use crate::run::grains::books::{self, fingerprint};
 use crate::run::grains::files::Files;
 use crate::run::grains::pictures;
 use crate::run::grains::population::Population;
+use crate::run::grains::stop;
 use crate::run::measure::contacts::Contacts;
 use crate::run::measure::grains::Grains;
 use crate::run::recorder::Recorder;
+use crate::run::stop::StopReport;
 use crate::run::summary::{CoupledPart, CouplingPart};
 use crate::solver::run::Run;
 use crate::state::{State, StateError, Tape};
@@ -64,6 +66,18 @@ impl<'a> InFluid<'a> {
         if let Some(grains) = run.grains() {
             self.population.book(&leaving, grains.dem());
         }
+    }
+
+    /// Looks at the books of energy of the grains after a step of the fluid; a report if they do not close.
+    pub(crate) fn audit(
+        &mut self,
+        file: &str,
+        grains: &Immersed,
+        (step, time_s): (u64, f64),
+    ) -> Option<StopReport> {
+        let open = self.population.audit(grains.dem())?;
+        let (plan, state) = (&self.coupled.grains, (grains.dem(), step, time_s));
+        Some(stop::open_books(file, plan, &self.population, state, &open))
     }
 
     /// Writes grains, contacts and walls.

@@ -3,6 +3,7 @@
 mod books;
 mod files;
 mod grains;
+mod guard;
 mod mesh;
 mod pictures;
 mod stop;
@@ -31,6 +32,7 @@ use crate::solver::steady::{SteadyOutcome, Watch, push};
 use crate::state::{State as _, StateError, Tape, part};
 use files::{Files, Shot};
 use grains::InFluid;
+use guard::MassWatch;
 use pictures::Plots;
 
 /// Cell updates between two movements of the progress bar.
@@ -51,8 +53,8 @@ pub(super) struct Flow<'a> {
     grains: Option<InFluid<'a>>,
     /// Loads on solids, looked at in every step.
     loads: Loads,
-    /// Mass excess at time 0, lattice units.
-    mass_at_start: f64,
+    /// Mass at time 0, and when to look at it.
+    mass: MassWatch,
     /// Looks for steadiness, where the scene asks for it.
     watch: Option<Watch>,
 }
@@ -81,7 +83,7 @@ impl<'a> Flow<'a> {
         Ok(Self {
             loads,
             fields: run.fields(),
-            mass_at_start: run.totals().mass_excess,
+            mass: MassWatch { start: run.totals().mass_excess, end: u64::MAX },
             frame: Frame::new(scene, plan.units),
             files: Files::new(&plan.setup, Arc::clone(recorder.folder())),
             watch: None,
@@ -100,6 +102,7 @@ impl<'a> Flow<'a> {
             Watch::new(rule.tolerance, interval, self.run.step(), end)
         });
         self.watch = watch;
+        self.mass.end = end;
         // The first look is at the start.
         self.is_steady();
     }
@@ -140,19 +143,24 @@ impl Experiment for Flow<'_> {
 
     fn stride(&self) -> u64 {
         let stride = if self.loads.any() { 1 } else { (UPDATES_PER_MOVE / self.size().max(1)).max(1) };
+        let stride = stride.min(self.mass.stride(self.step()));
         if self.opens() { stride.min(STEPS_PER_LOOK - self.step() % STEPS_PER_LOOK) } else { stride }
     }
 
     fn advance(&mut self, steps: u64) -> Result<(), Box<StopReport>> {
         let population = self.grains.as_ref().map(|grains| &grains.population);
         let number = |grain: u32| population.map_or(grain as usize, |all| all.number(grain as usize));
-        match self.run.advance(steps) {
-            Ok(()) => Ok(()),
-            Err(stopped) => {
-                let failure = self.run.grains().and_then(|grains| grains.failure());
-                Err(Box::new(stop::report(&self.scene.file, self.plan, &stopped, failure, &number)))
-            }
+        let moved = self.run.advance(steps);
+        if let Err(stopped) = moved.and_then(|()| self.mass.look(self.run.as_ref())) {
+            let failure = self.run.grains().and_then(|grains| grains.failure());
+            return Err(Box::new(stop::report(&self.scene.file, self.plan, &stopped, failure, &number)));
         }
+        let now = (self.step(), self.time_s());
+        let report = match (&mut self.grains, self.run.grains()) {
+            (Some(part), Some(grains)) => part.audit(&self.scene.file, grains, now),
+            _ => None,
+        };
+        report.map_or(Ok(()), |report| Err(Box::new(report)))
     }
 
     fn tidy(&mut self) {
@@ -266,7 +274,7 @@ impl Experiment for Flow<'_> {
             files,
             grains,
             loads,
-            mass_at_start,
+            mass: MassWatch { start: mass_at_start, end: _ },
             watch,
             scene: _,
             plan: _,
@@ -287,6 +295,6 @@ impl Experiment for Flow<'_> {
     fn parts(&self) -> Parts {
         let run = self.run.as_ref();
         let grains = self.grains.as_ref().and_then(|part| part.part(run, &self.plan.units, self.time_s()));
-        Parts::Fluid(Box::new(books::part(self.plan, run, &self.fields, self.mass_at_start, grains)))
+        Parts::Fluid(Box::new(books::part(self.plan, run, &self.fields, self.mass.start, grains)))
     }
 }

@@ -3,6 +3,7 @@
 use crate::dem::DemError;
 use crate::plan::Plan;
 use crate::run::stop::{StopPlace, StopReport};
+use crate::setup::SPEED_LIMIT;
 use crate::solver::run::{Runaway, Stopped};
 
 /// A report about a run of the scene `file`. `failure`: what the discrete element method says. `number`: number at time
@@ -52,6 +53,11 @@ fn found(
         Runaway::Ledger { residual, bound } => {
             format!("mass changed by {residual:.3e} of the whole in one step; rounding allows {bound:.1e}")
         }
+        Runaway::Mass { residual, bound } => {
+            format!(
+                "mass changed by {residual:.3e} of the whole since the start; rounding allows {bound:.1e}"
+            )
+        }
         Runaway::Grains { grain } => match failure {
             Some(error) => format!("{}: {error}", name(grain)),
             None => format!("{} could not go on", name(grain)),
@@ -66,7 +72,7 @@ fn found(
 /// The likeliest cause, by what the plan already knew.
 fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
     let numbers = &plan.numbers;
-    if matches!(stopped.what, Runaway::Ledger { .. }) {
+    if matches!(stopped.what, Runaway::Ledger { .. } | Runaway::Mass { .. }) {
         "a defect of the solver; please report the scene"
     } else if matches!(stopped.what, Runaway::Grains { .. }) {
         "an impact too fast or a load too high for this Young's modulus; stiffer material, more \
@@ -74,6 +80,9 @@ fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
     } else if matches!(stopped.what, Runaway::GrainTooFast { .. }) {
         "grains fall faster than the velocity scale assumed; give `numerics.reference_velocity_m_per_s` or a smaller \
          time step"
+    } else if matches!(stopped.what, Runaway::TooFast { limit, .. } if limit < SPEED_LIMIT) {
+        "five times the speed that forces, walls and fall can give is passed: the solver has made it, by waves at a relaxation \
+         time near ½ [K5] or at a wall; a finer `domain.spacing_m`, a larger viscosity, or `half_way` surfaces"
     } else if stopped.tau < 0.55 {
         "the relaxation time is near ½, where waves grow [K5]; a finer `domain.spacing_m` or a larger viscosity"
     } else if stopped.tau.is_finite() && stopped.tau > 3.0 && !plan.numbers.operator.has_odd_rate() {

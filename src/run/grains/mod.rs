@@ -4,7 +4,7 @@ pub(super) mod books;
 pub(super) mod files;
 pub(super) mod pictures;
 pub(super) mod population;
-mod stop;
+pub(super) mod stop;
 mod walls;
 
 use std::sync::Arc;
@@ -121,7 +121,10 @@ impl Experiment for Dry<'_> {
     fn advance(&mut self, steps: u64) -> Result<(), Box<StopReport>> {
         let result = self.dem.step(steps);
         let report = |error| stop::report(&self.scene.file, self.plan, &self.population, &self.dem, &error);
-        result.map_err(|error| Box::new(report(error)))
+        result.map_err(|error| Box::new(report(error)))?;
+        let Some(open) = self.population.audit(&self.dem) else { return Ok(()) };
+        let state = (&self.dem, self.dem.steps(), self.dem.time());
+        Err(Box::new(stop::open_books(&self.scene.file, self.plan, &self.population, state, &open)))
     }
 
     /// Takes down the loads and takes out the free grains that are wholly beyond an open face.

@@ -1,6 +1,6 @@
 //! What stopped the discrete element method, with the names of the scene.
 
-use super::population::Population;
+use super::population::{OpenBooks, Population, UNEXPLAINED};
 use crate::dem::{Dem, DemError, Touching, V3};
 use crate::plan::grains::GrainPlan;
 use crate::run::stop::{StopPlace, StopReport};
@@ -48,6 +48,39 @@ pub(super) fn report(
             stopped(*step, *time_s, name(*grain), position(*grain), found, cause)
         }
         other => refused(file, other),
+    }
+}
+
+/// A report about books of energy that do not close; `time_s`: s.
+pub(in crate::run) fn open_books(
+    file: &str,
+    plan: &GrainPlan,
+    grains: &Population,
+    (dem, step, time_s): (&Dem, u64, f64),
+    books: &OpenBooks,
+) -> StopReport {
+    let b = dem.bodies();
+    let energy = |i: &usize| b.translational_energy(*i) + b.rotational_energy(*i);
+    // NaN counts as largest, and is where to look.
+    let fastest = (0..b.len()).max_by(|i, j| energy(i).total_cmp(&energy(j))).unwrap_or(0);
+    let position = b.position.get(fastest).map(|x: &V3| [x.x, x.y, x.z]);
+    let OpenBooks { unexplained_j, turned_over_j } = books;
+    StopReport {
+        file: file.to_owned(),
+        step,
+        time_s,
+        place: StopPlace::Grains {
+            who: format!("{}, which has the most kinetic energy", plan.name(grains.number(fastest))),
+            position_m: position,
+        },
+        found: format!(
+            "{unexplained_j:.3e} J that no force explains, {:.3} of the {turned_over_j:.3e} J turned over so far; the limit \
+             is {UNEXPLAINED}",
+            unexplained_j.abs() / turned_over_j
+        ),
+        cause: "steps too long for the stiffness or the damping of a contact, or impacts faster than the design speed; a \
+                smaller `grains.numerics.time_step_s` (with fluid: more `grains.coupling.sub_steps`), more \
+                `steps_per_contact`, or a higher `design_speed_m_per_s`",
     }
 }
 

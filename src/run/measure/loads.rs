@@ -181,8 +181,7 @@ fn centre_of_pressure(load: &Wrench, about_m: [f64; 3]) -> Option<[f64; 3]> {
 }
 
 /// Load of a step on a solid in a fluid: of the fluid, and in a `force` of contacts and lubrication too. What pushes a face,
-/// or what is asked for as `on`, is the contacts alone. Lubrication has no known point of attack here: it counts in forces, not
-/// in moments.
+/// or what is asked for as `on`, is the contacts alone.
 pub(in crate::run) fn of_flow(
     fluid: &Fluid<'_>,
     grains: Option<(&Immersed, &Walls)>,
@@ -192,9 +191,10 @@ pub(in crate::run) fn of_flow(
     let of_contacts = grains.map(|(immersed, walls)| {
         let mut load = of_walls(immersed.dem(), walls, measure, about_m);
         if let Measure::Force { on: None, .. } = measure {
-            let gaps = numbers(walls, measure).into_iter().map(|wall| immersed.lubrication_on_wall(wall));
-            let gaps: V3 = gaps.fold(V3::zeros(), |sum, force| sum + force);
-            load.force = std::array::from_fn(|a| load.force[a] + gaps[a]);
+            for wall in numbers(walls, measure) {
+                let gaps = immersed.lubrication_wrench(wall);
+                load = load.plus(&of_wall(immersed.dem(), wall, gaps, about_m));
+            }
         }
         load
     });
@@ -208,14 +208,15 @@ pub(in crate::run) fn of_flow(
 
 /// Load of the contacts of a step on the walls that a measure names, M_p = Σ M_w + (w − p) × F_w.
 pub(in crate::run) fn of_walls(dem: &Dem, walls: &Walls, measure: &Measure, about_m: [f64; 3]) -> Wrench {
+    let all = numbers(walls, measure).into_iter();
+    all.fold(Wrench::default(), |sum, wall| sum.plus(&of_wall(dem, wall, dem.force_on_wall(wall), about_m)))
+}
+
+/// A force on a wall and its torque about the point about which the wall turns, seen from another point.
+fn of_wall(dem: &Dem, wall: usize, (force, torque): (V3, V3), about_m: [f64; 3]) -> Wrench {
     let scenery = dem.scenery();
-    let (mut force, mut moment) = (V3::zeros(), V3::zeros());
-    for wall in numbers(walls, measure) {
-        let (of_wall, torque) = dem.force_on_wall(wall);
-        let from = scenery.walls[wall].motion.about + scenery.poses[wall].shift;
-        force += of_wall;
-        moment += torque + (from - V3::from(about_m)).cross(&of_wall);
-    }
+    let from = scenery.walls[wall].motion.about + scenery.poses[wall].shift;
+    let moment = torque + (from - V3::from(about_m)).cross(&force);
     Wrench { force: force.into(), moment: moment.into() }
 }
 

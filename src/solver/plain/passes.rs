@@ -95,11 +95,17 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         (self.post, self.previous_omega) = (post, omega);
         if let Some(surface) = &mut self.surface {
             surface.velocity = velocity;
+        }
+        if let Some(stopped) = results.iter().find_map(|chunk| chunk.failed) {
+            // The step does not happen: nothing of it is booked.
+            return Err(stopped);
+        }
+        if let Some(surface) = &mut self.surface {
             for chunk in &results {
                 surface.books.from_force.merge(&chunk.brought);
             }
         }
-        results.iter().find_map(|chunk| chunk.failed).map_or(Ok(()), Err)
+        Ok(())
     }
 
     #[inline(never)]
