@@ -139,7 +139,14 @@ enum Failure {
 impl Failure {
     fn code(&self) -> u8 {
         match self {
-            Self::Scene(error) if matches!(*error.problem, SceneProblem::Unreadable { .. }) => IO,
+            Self::Scene(error)
+                if matches!(
+                    *error.problem,
+                    SceneProblem::Unreadable { .. } | SceneProblem::NotAFile { .. }
+                ) =>
+            {
+                IO
+            }
             Self::Scene(_) | Self::Plan(_) | Self::NoTarget(_) => BAD_INPUT,
             Self::Run(RunError::Start(_)) => BAD_INPUT,
             Self::Run(RunError::Stopped(_)) => STOPPED,

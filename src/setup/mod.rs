@@ -277,6 +277,9 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// Speed, cells per step, above which a run is stopped unless a set-up says otherwise.
+    pub const SPEED_LIMIT: f64 = 0.4;
+
     /// Whether links can be cut where surfaces lie \[B4\]: while every solid rests and no motion changes in time.
     ///
     /// Beside a turning drum whose axis lies 0.2 to 0.4 cells beside the middle of the grid, fluid gains momentum of
@@ -308,7 +311,7 @@ impl Setup {
             free_surface: None,
             grains: None,
             loads: false,
-            speed_limit: 0.4,
+            speed_limit: Self::SPEED_LIMIT,
             precision: Precision::Double,
             threads: 1,
         }

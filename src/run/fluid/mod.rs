@@ -22,7 +22,7 @@ use super::stop::StopReport;
 use super::summary::Parts;
 use crate::output::OutputError;
 use crate::plan::Plan;
-use crate::scene::{Measure, RestMeasure, Scene};
+use crate::scene::{FieldChoice, Measure, RestMeasure, Scene};
 use crate::solver::run::{Backend, Fields, Run};
 use crate::solver::steady::{SteadyOutcome, Watch, push};
 use files::{Files, Shot};
@@ -79,7 +79,7 @@ impl<'a> Flow<'a> {
             fields: run.fields(),
             mass_at_start: run.totals().mass_excess,
             frame: Frame::new(scene, plan.units),
-            files: Files::new(&plan.setup, &recorder.path("")),
+            files: Files::new(&plan.setup, FieldChoice::of(scene), &recorder.path("")),
             watch: None,
             scene,
             plan,
