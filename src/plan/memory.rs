@@ -102,19 +102,20 @@ pub fn predict(setup: &Setup, layout: Layout) -> Prediction {
 
 /// Bytes a run holds once the fluid has reached every cell that is not solid; `None` where that is no more than at time 0:
 /// without a free surface, and on a backend that holds every cell.
+///
+/// # Arguments
+/// `items`: those of time 0, with the surface that the fluid has then.
 #[must_use]
-pub(super) fn at_most(setup: &Setup, layout: Layout) -> Option<u64> {
+pub(super) fn at_most(setup: &Setup, layout: Layout, items: &[Item]) -> Option<u64> {
     let surface = setup.free_surface.as_ref()?;
     if layout == Layout::EveryCell || setup.grains.is_some() || choose::only_plain(setup).is_some() {
         return None;
     }
-    let now = predict(setup, layout).total;
+    let now = items.iter().map(|item| item.bytes).sum::<u64>();
+    let blocks = items.iter().find(|item| item.part == Part::Populations).map_or(0, |item| item.bytes);
     let fill = (0..setup.cells()).map(|cell| if setup.is_solid(cell) { 0.0 } else { 1.0 }).collect();
-    let free_surface = Some(FreeSurface { fill, ..surface.clone() });
-    let full = Setup { free_surface, ..setup.clone() };
-    // What the surface of time 0 costs comes on top.
-    Some(now + fast::predict::bytes(&full).saturating_sub(fast::predict::bytes(setup)))
-        .filter(|&most| most > now)
+    let full = Setup { free_surface: Some(FreeSurface { fill, ..surface.clone() }), ..setup.clone() };
+    Some(now + fast::predict::bytes(&full).saturating_sub(blocks)).filter(|&most| most > now)
 }
 
 /// What each feature of a set-up costs.

@@ -144,6 +144,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
     let stable_speed = given.judged.stable_speed();
     let slip = plug_slip(basis);
     let (memory, bytes) = counted(setup, given.layout);
+    let bytes_at_most = at_most(setup, given.layout, &memory);
     let cell_updates = given.fluid_cells as f64 * *steps as f64;
     let (viscous_stress, plastic_stress) = (curve.viscous_stress(u / length), curve.plastic_stress());
     Numbers {
@@ -184,7 +185,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         memory,
         bytes_per_cell: bytes as f64 / cells as f64,
         bytes,
-        bytes_at_most: at_most(setup, given.layout),
+        bytes_at_most,
         files: Vec::new(),
         passes: passes(scene, setup),
         cell_updates,

@@ -11,8 +11,10 @@ use super::time_step::StepRule;
 use super::ways::{Way, Ways};
 use crate::scene::{Operator, Rheology, Scene};
 
-/// Most cells of a scene that is planned only to see whether it has a plan: some tenths of a second.
-const CELLS_TRIED: f64 = 1e6;
+/// Most cells of a scene that is planned only to see whether it has a plan: about a second.
+const CELLS_TRIED: f64 = 4e6;
+/// The same with a finer spacing, where the scene has few: some hundredths of a second.
+const FINER_CELLS_TRIED: f64 = 2e5;
 /// Plans tried for one kind of change.
 const TRIES: usize = 3;
 /// Finest spacing that is looked at, as a part of the given one.
@@ -119,10 +121,11 @@ fn finer(refused: &Refused) -> Option<Way> {
     let (scene, cells) = (refused.flow.facts.scene, refused.cells);
     let common = cells.extents.into_iter().fold(0, gcd);
     let total = cells.extents.iter().map(|&n| n as f64).product::<f64>();
+    let most = (8.0 * total).clamp(FINER_CELLS_TRIED, CELLS_TRIED);
     let mut tries = 0;
     for parts in common + 1..=FINEST * common {
         let share = parts as f64 / common as f64;
-        if total * share * share * share > CELLS_TRIED || tries == TRIES {
+        if total * share * share * share > most || tries == TRIES {
             return None;
         }
         let mut changed = scene.clone();
