@@ -246,11 +246,13 @@ const UNITS: &[&str] = &[
 
 /// A word in lower case with underscores, without its unit.
 fn bare(word: &str) -> String {
-    let mut plain = String::new();
+    let (mut plain, mut after_small) = (String::new(), false);
     for c in word.chars() {
-        if c.is_uppercase() && plain.ends_with(|last: char| last.is_lowercase()) {
+        // `endTime`, but not `MRT`.
+        if c.is_uppercase() && after_small {
             plain.push('_');
         }
+        after_small = c.is_lowercase();
         plain.extend(if c == '-' || c == ' ' { '_' } else { c }.to_lowercase());
     }
     let unit = UNITS.iter().find(|unit| plain.len() > unit.len() && plain.ends_with(*unit));
