@@ -155,7 +155,14 @@ enum Failure {
 impl Failure {
     fn code(&self) -> u8 {
         match self {
-            Self::Scene(error) if matches!(*error.problem, SceneProblem::Unreadable { .. }) => IO,
+            Self::Scene(error)
+                if matches!(
+                    *error.problem,
+                    SceneProblem::Unreadable { .. } | SceneProblem::NotAFile { .. }
+                ) =>
+            {
+                IO
+            }
             Self::Scene(_) | Self::Plan(_) | Self::NoTarget(_) => BAD_INPUT,
             Self::Run(error) => match error {
                 RunError::Start(_) | RunError::Kept { .. } | RunError::Stranger { .. } => BAD_INPUT,

@@ -168,10 +168,11 @@ impl Materials {
                 return Err(DemError::UnknownMaterial { found: i.max(j), count });
             }
         }
+        let mut alphas = Alphas::default();
         let mut laws = Vec::with_capacity(count * count);
         for a in 0..count {
             for b in 0..count {
-                laws.push(pair_law(&self.list[a], &self.list[b], &self.properties(a, b))?);
+                laws.push(pair_law(&self.list[a], &self.list[b], &self.properties(a, b), &mut alphas)?);
             }
         }
         let any_rolling = laws.iter().any(|l| l.rolling > 0.0);
@@ -192,7 +193,28 @@ fn check(m: &Material) -> Result<(), DemError> {
     Ok(())
 }
 
-fn pair_law(a: &Material, b: &Material, p: &PairProperties) -> Result<PairLaw, DemError> {
+/// Tsuji's α of the restitutions met last: a root each, and most pairs of a table share one.
+#[derive(Default)]
+struct Alphas(Vec<[f64; 2]>);
+
+impl Alphas {
+    /// How many are kept.
+    const KEPT: usize = 16;
+
+    fn of(&mut self, restitution: f64) -> f64 {
+        if let Some([_, alpha]) = self.0.iter().find(|[e, _]| *e == restitution) {
+            return *alpha;
+        }
+        let alpha = tsuji_alpha(restitution);
+        if self.0.len() == Self::KEPT {
+            self.0.remove(0);
+        }
+        self.0.push([restitution, alpha]);
+        alpha
+    }
+}
+
+fn pair_law(a: &Material, b: &Material, p: &PairProperties, memo: &mut Alphas) -> Result<PairLaw, DemError> {
     let wrong = |what, found, allowed| {
         Err(DemError::PairProperty { first: a.name.clone(), second: b.name.clone(), what, found, allowed })
     };
@@ -221,7 +243,7 @@ fn pair_law(a: &Material, b: &Material, p: &PairProperties) -> Result<PairLaw, D
         {
             return wrong("restitution", restitution, "above 0 and at most 1");
         }
-        NormalLaw::Tsuji { restitution } => Compiled::Tsuji { alpha: tsuji_alpha(restitution) },
+        NormalLaw::Tsuji { restitution } => Compiled::Tsuji { alpha: memo.of(restitution) },
         NormalLaw::Linear { stiffness_n_m, restitution, tangential_ratio } => {
             if !(stiffness_n_m > 0.0 && stiffness_n_m.is_finite()) {
                 return wrong("stiffness", stiffness_n_m, "above 0 N/m");

@@ -84,13 +84,18 @@ pub(crate) fn covered(shapes: &[&Shape], low: [f64; 3], dx: f64, thin: [bool; 3]
     match near.as_slice() {
         [] => 0.0,
         [Shape::Polygon { axis, points_m, from_m, to_m }] => swept(&cell, *axis, points_m, [*from_m, *to_m]),
-        near if near.iter().all(|shape| shape.is_blocky()) => blocks(near, &cell),
+        near if near.len() <= MOST_BLOCKS && near.iter().all(|shape| shape.is_blocky()) => {
+            blocks(near, &cell)
+        }
         near => {
             let samples = Samples::new(near.iter().copied(), low, dx, thin);
             snap(samples.share(|p| near.iter().any(|shape| shape.contains(p))))
         }
     }
 }
+
+/// Most blocky shapes in a cell that are cut into pieces, of which there are as many as the cube of their number.
+const MOST_BLOCKS: usize = 16;
 
 /// Exact share of a cell inside a polygon swept along an axis.
 fn swept(cell: &Bounds, axis: Axis, points: &[[f64; 2]], ends: [Option<f64>; 2]) -> f64 {

@@ -1,5 +1,7 @@
 //! Terrain: heights on a regular grid.
 
+use std::sync::OnceLock;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -10,14 +12,40 @@ use serde::{Deserialize, Serialize};
 pub struct Heightfield {
     /// x and y of the first height of the first row, m.
     #[serde(default)]
-    pub origin_m: [f64; 2],
+    pub(crate) origin_m: [f64; 2],
     /// Distance between heights along x and y, m.
-    pub spacing_m: f64,
+    pub(crate) spacing_m: f64,
     /// Heights z, m: one row per y, in each row one height per x; all rows of the same length.
-    pub heights_m: Vec<Vec<f64>>,
+    heights_m: Vec<Vec<f64>>,
+    /// Found when it is first asked for, at every cell of a box: it takes all heights.
+    #[serde(skip)]
+    steepness: Found,
+}
+
+/// What follows from the heights, which do not change; two fields are alike whether it was asked for or not.
+#[derive(Clone, Debug, Default)]
+struct Found(OnceLock<f64>);
+
+impl PartialEq for Found {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Heightfield {
+    /// Heights z, m, on a grid: one row per y, in each row one height per x; all rows of the same length. `origin_m` is the
+    /// place of the first height of the first row, `spacing_m` the distance between heights, both m.
+    #[must_use]
+    pub fn new(origin_m: [f64; 2], spacing_m: f64, heights_m: Vec<Vec<f64>>) -> Self {
+        Self { origin_m, spacing_m, heights_m, steepness: Found::default() }
+    }
+
+    /// The heights, m, row by row.
+    #[must_use]
+    pub fn heights_m(&self) -> &[Vec<f64>] {
+        &self.heights_m
+    }
+
     /// Height at a place, m.
     #[must_use]
     pub(crate) fn height(&self, x: f64, y: f64) -> f64 {
@@ -41,6 +69,10 @@ impl Heightfield {
     /// to the surface, at most.
     #[must_use]
     pub(crate) fn steepness(&self) -> f64 {
+        *self.steepness.0.get_or_init(|| self.steepest())
+    }
+
+    fn steepest(&self) -> f64 {
         let mut steps = [0.0_f64; 2];
         for (j, row) in self.heights_m.iter().enumerate() {
             for (i, h) in row.iter().enumerate() {
@@ -76,11 +108,8 @@ mod tests {
 
     #[test]
     fn exact_bilinear_heights() {
-        let field = Heightfield {
-            origin_m: [1.0, 2.0],
-            spacing_m: 2.0,
-            heights_m: vec![vec![0.0, 1.0], vec![2.0, 3.0], vec![2.0, 3.0]],
-        };
+        let heights = vec![vec![0.0, 1.0], vec![2.0, 3.0], vec![2.0, 3.0]];
+        let field = Heightfield::new([1.0, 2.0], 2.0, heights);
         assert_eq!(field.height(2.0, 2.0), 0.5);
         assert_eq!(field.height(1.0, 3.0), 1.0);
         assert_eq!(field.height(100.0, 100.0), 3.0);

@@ -2,8 +2,10 @@
 
 mod beside;
 mod combine;
+mod crossing;
 mod heightfield;
 mod polygon;
+mod row;
 mod samples;
 mod shape;
 

@@ -6,6 +6,9 @@ use super::shape::{Axis, Shape};
 /// the cell centre and none lies on it.
 const SAMPLES: usize = 8;
 
+/// Most planes along an axis at which a cell is cut: with more of them, points without regard to planes are as good and fewer.
+const MOST_CUTS: usize = 4 * SAMPLES;
+
 /// Planes closer to each other or to a face of the cell than this share of it are one: rounding.
 const SAME: f64 = 1e-9;
 
@@ -96,6 +99,9 @@ fn line(planes: &[f64], low: f64, dx: f64, count: usize) -> Line {
     cuts.retain(|&cut| cut > SAME && cut < 1.0 - SAME);
     cuts.sort_by(f64::total_cmp);
     cuts.dedup_by(|a, b| *a - *b < SAME);
+    if cuts.len() > MOST_CUTS {
+        cuts.clear();
+    }
     let mut line = Vec::with_capacity(count + cuts.len());
     let mut start = 0.0;
     for end in cuts.into_iter().chain([1.0]) {

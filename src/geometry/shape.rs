@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::crossing::{Crossing, first_crossing};
 use super::heightfield::Heightfield;
 use super::polygon;
 use crate::vector::{dot, norm, sub};
@@ -259,6 +260,17 @@ impl Shape {
     pub(crate) fn polygon_area(&self) -> Option<f64> {
         match self {
             Self::Polygon { points_m, .. } => Some(polygon::signed_area(points_m).abs()),
+            _ => None,
+        }
+    }
+}
+
+impl Shape {
+    /// Where a polygon's edges cross or touch; `None` for simple polygons and other shapes.
+    #[must_use]
+    pub(crate) fn crossing(&self) -> Option<Crossing> {
+        match self {
+            Self::Polygon { points_m, .. } => first_crossing(points_m),
             _ => None,
         }
     }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::{OutputError, atomic, xml_escape};
@@ -13,6 +14,9 @@ pub struct Image<'a> {
     spacing_m: f64,
     time_s: Option<f64>,
     arrays: Vec<Array<'a>>,
+    /// Cells along each axis that are written.
+    window: [Range<usize>; 3],
+    single: bool,
 }
 
 struct Array<'a> {
@@ -37,8 +41,12 @@ impl Values<'_> {
         }
     }
 
-    fn kind(&self) -> &'static str {
-        if matches!(self, Self::Mask(_)) { "UInt8" } else { "Float64" }
+    fn kind(&self, single: bool) -> &'static str {
+        match self {
+            Self::Mask(_) => "UInt8",
+            _ if single => "Float32",
+            _ => "Float64",
+        }
     }
 
     /// Component count and the names VTK shows for them.
@@ -50,22 +58,30 @@ impl Values<'_> {
         }
     }
 
-    /// Bytes in the file.
-    fn bytes(&self) -> u64 {
-        let size = if matches!(self, Self::Mask(_)) { 1 } else { 8 };
-        (self.len() * self.components().len() * size) as u64
+    /// Bytes of so many cells in the file.
+    fn bytes(&self, cells: usize, single: bool) -> u64 {
+        let size = match self {
+            Self::Mask(_) => 1,
+            _ if single => 4,
+            _ => 8,
+        };
+        (cells * self.components().len() * size) as u64
     }
 
-    fn send(&self, out: &mut dyn Write) -> io::Result<()> {
+    /// One row of cells.
+    fn send(&self, row: Range<usize>, single: bool, out: &mut dyn Write) -> io::Result<()> {
+        let mut number = |x: &f64| {
+            // What is beyond the range of 32 bits becomes infinite.
+            if single { out.write_all(&(*x as f32).to_le_bytes()) } else { out.write_all(&x.to_le_bytes()) }
+        };
         match self {
-            Self::Scalar(v) => v.iter().try_for_each(|x| out.write_all(&x.to_le_bytes())),
-            Self::Vector(v) => v.iter().flatten().try_for_each(|x| out.write_all(&x.to_le_bytes())),
-            Self::Tensor(v) => v.iter().try_for_each(|t| {
+            Self::Scalar(v) => v[row].iter().try_for_each(number),
+            Self::Vector(v) => v[row].iter().flatten().try_for_each(number),
+            Self::Tensor(v) => v[row].iter().try_for_each(|t| {
                 // VTK orders symmetric tensors xx yy zz xy yz xz.
-                let ordered = [t[0], t[1], t[2], t[3], t[5], t[4]];
-                ordered.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))
+                [t[0], t[1], t[2], t[3], t[5], t[4]].iter().try_for_each(&mut number)
             }),
-            Self::Mask(v) => out.write_all(v),
+            Self::Mask(v) => out.write_all(&v[row]),
         }
     }
 }
@@ -74,7 +90,22 @@ impl<'a> Image<'a> {
     /// A box of `extents` cubic cells whose low corner is at `origin_m`.
     #[must_use]
     pub fn new(extents: [usize; 3], origin_m: [f64; 3], spacing_m: f64) -> Self {
-        Self { extents, origin_m, spacing_m, time_s: None, arrays: Vec::new() }
+        let window = extents.map(|n| 0..n);
+        Self { extents, origin_m, spacing_m, time_s: None, arrays: Vec::new(), window, single: false }
+    }
+
+    /// Only these cells along each axis, which the box has.
+    #[must_use]
+    pub fn window(mut self, cells: [Range<usize>; 3]) -> Self {
+        self.window = cells;
+        self
+    }
+
+    /// Numbers of 32 bits.
+    #[must_use]
+    pub fn single(mut self, single: bool) -> Self {
+        self.single = single;
+        self
     }
 
     /// Stores the time as the field `TimeValue`, which ParaView understands.
@@ -141,22 +172,34 @@ impl<'a> Image<'a> {
     fn send(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut declarations = String::new();
         let mut offset = 0;
+        let cells = self.window.iter().map(Range::len).product();
         for Array { name, values } in &self.arrays {
-            declare(&mut declarations, name, values, offset);
-            offset += 8 + values.bytes();
+            declare(&mut declarations, name, values, self.single, offset);
+            offset += 8 + values.bytes(cells, self.single);
         }
         out.write_all(self.head(&declarations).as_bytes())?;
         for Array { values, .. } in &self.arrays {
-            out.write_all(&values.bytes().to_le_bytes())?;
-            values.send(out)?;
+            out.write_all(&values.bytes(cells, self.single).to_le_bytes())?;
+            self.rows().try_for_each(|row| values.send(row, self.single, out))?;
         }
         out.write_all(b"\n</AppendedData>\n</VTKFile>\n")
     }
 
+    /// The rows of cells along x that are written, as ranges of the arrays.
+    fn rows(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        let ([nx, ny, _], [x, y, z]) = (self.extents, &self.window);
+        z.clone().flat_map(move |k| {
+            y.clone().map(move |j| {
+                let start = nx * (j + ny * k);
+                start + x.start..start + x.end
+            })
+        })
+    }
+
     fn head(&self, declarations: &str) -> String {
-        let [nx, ny, nz] = self.extents;
-        let [x, y, z] = self.origin_m;
+        let [nx, ny, nz] = [0, 1, 2].map(|a| self.window[a].len());
         let h = self.spacing_m;
+        let [x, y, z] = [0, 1, 2].map(|a| self.origin_m[a] + self.window[a].start as f64 * h);
         let time = self.time_s.map_or_else(String::new, |t| {
             format!(
                 "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" \
@@ -182,13 +225,13 @@ impl<'a> Image<'a> {
     }
 }
 
-fn declare(out: &mut String, name: &str, values: &Values, offset: u64) {
+fn declare(out: &mut String, name: &str, values: &Values, single: bool, offset: u64) {
     let components = values.components();
     let name = xml_escape(name);
     let _ = write!(
         out,
         "<DataArray type=\"{}\" Name=\"{name}\" NumberOfComponents=\"{}\"",
-        values.kind(),
+        values.kind(single),
         components.len()
     );
     for (c, label) in components.iter().enumerate().filter(|(_, label)| !label.is_empty()) {

@@ -61,9 +61,10 @@ fn paint([nx, ny, nz]: [usize; 3], dx: f64, shapes: &[(&Shape, bool)]) -> Vec<u8
     let mut cells = Vec::with_capacity(nx * ny * nz);
     for k in 0..nz {
         for j in 0..ny {
+            let at = [centre(j), centre(k)];
+            let rows: Vec<_> = shapes.iter().map(|(shape, invert)| (shape.row(at), *invert)).collect();
             for i in 0..nx {
-                let point = [centre(i), centre(j), centre(k)];
-                let last = shapes.iter().rposition(|(shape, invert)| shape.contains(point) != *invert);
+                let last = rows.iter().rposition(|(row, invert)| row.contains(centre(i)) != *invert);
                 cells.push(last.map_or(0, |s| u8::try_from(s + 1).unwrap_or(u8::MAX)));
             }
         }

@@ -2,22 +2,15 @@
 
 use super::cells::{Cells, holds_a_cell};
 use super::error::PlanProblem;
+use super::judge::Flow;
 use super::memory::{least_bytes_per_cell, predict};
 use super::moving::{Leaving, first_leaving};
-use super::numbers::Numbers;
+use super::ways::Ways;
 use crate::scene::Scene;
-use crate::setup::{BodyForce, Setup, WallRule};
+use crate::setup::{BodyForce, Setup};
 use crate::solver::layout::Layout;
 use crate::units::Units;
 
-/// Largest Mach number; 0.5 is 0.29 cells per step, where the O(Ma²) errors are a quarter.
-const MACH_MAX: f64 = 0.5;
-/// Least plastic τ, the first column of the stability table.
-const TAU_MIN: f64 = 0.5005;
-/// Largest plastic τ of the operators whose walls do not depend on it.
-const TAU_MAX: f64 = 50.0;
-/// Largest plastic τ of one-rate operators with half-way walls.
-const TAU_MAX_ONE_RATE: f64 = 3.0;
 /// Integers up to here are exact in f64.
 const STEPS_MAX: f64 = 9e15;
 
@@ -136,58 +129,14 @@ pub(super) fn finite(setup: &Setup) -> Result<(), PlanProblem> {
     }
 }
 
-/// Mach number, τ and stability.
-pub(super) fn numbers(numbers: &Numbers, setup: &Setup) -> Result<(), PlanProblem> {
-    let dt = numbers.time_step_s;
-    if !numbers.tau_plastic.is_finite() {
-        return Err(PlanProblem::NotFinite { quantity: "the relaxation time", found: numbers.tau_plastic });
-    }
-    if numbers.mach > MACH_MAX {
-        return Err(PlanProblem::MachTooHigh {
-            mach: numbers.mach,
-            speed: numbers.reference_velocity_m_per_s,
-            dt,
-            limit: MACH_MAX,
-            dt_max: dt * MACH_MAX / numbers.mach,
-            given: !numbers.time_step_rule.chosen(),
-        });
-    }
-    let tau = numbers.tau_plastic;
-    if tau < TAU_MIN {
-        return Err(PlanProblem::TauTooSmall { tau, dt, limit: TAU_MIN });
-    }
-    let walls = numbers.gap_cells.is_finite() && setup.wall_rule == WallRule::HalfWay;
-    let one_rate = !numbers.operator.has_odd_rate();
-    let (limit, because) = if one_rate && walls {
-        (TAU_MAX_ONE_RATE, "half-way walls slip by (16(τ−½)² − 3)/(3N²) of the mean flow [B1]")
-    } else {
-        (TAU_MAX, "beyond it a step is longer than 16 diffusion times of a cell [L6]")
-    };
-    if tau > limit {
-        let dt_max = dt * (limit - 0.5) / (tau - 0.5);
-        return Err(PlanProblem::TauTooLarge { tau, dt, limit, operator: numbers.operator, because, dt_max });
-    }
-    wide_enough(numbers, setup)?;
-    match numbers.stable_speed {
-        Some(limit) if numbers.speed_lattice > limit => Err(PlanProblem::Unstable {
-            speed: numbers.speed_lattice,
-            limit,
-            tau: numbers.tau_min,
-            operator: numbers.operator,
-        }),
-        _ => Ok(()),
-    }
-}
-
 /// Whether the widest place between walls has the cells that a flow needs. Measured in channels at the default step:
 /// Newtonian fluid on 2 and 3 cells +12 and +6 % of the flux, on 4 +3 %; with a yield stress on 2, 3, 4 cells up to −100,
 /// −20, −7 %.
-fn wide_enough(numbers: &Numbers, setup: &Setup) -> Result<(), PlanProblem> {
-    let (cells, law) = (numbers.gap_cells, &setup.fluids[0]);
+pub(super) fn wide_enough(flow: &Flow, ways: impl FnOnce() -> Ways) -> Result<(), PlanProblem> {
+    let (cells, law) = (flow.gap, &flow.facts.laws[0]);
     let least = if law.constant_tau().is_some() { 4.0 } else { 5.0 };
-    if numbers.reference_velocity_m_per_s == 0.0 || cells >= least {
+    if flow.scales.velocity == 0.0 || cells >= least {
         return Ok(());
     }
-    let spacing = numbers.spacing_m * cells / least;
-    Err(PlanProblem::GapTooNarrow { cells, least, law: law.name(), spacing })
+    Err(PlanProblem::GapTooNarrow { cells, least, law: law.name(), ways: ways() })
 }

@@ -1,6 +1,7 @@
 //! What can be wrong with a scene once it is put into numbers.
 
-use super::text::human;
+use super::text::{human, relaxation, short};
+use super::ways::Ways;
 use crate::scene::{Located, Operator};
 
 /// A problem found while planning a scene.
@@ -40,6 +41,14 @@ pub enum PlanProblem {
          way out: leave out `numerics.solid_surface`, or the motions"
     )]
     CutsInMotion,
+    /// As good as no fluid.
+    #[error(
+        "the fluid is at most {} m deep, {} cells of {spacing} m: it has no surface in any of them\n  \
+         allowed: at least {least} cells; a layer of less than 4 is not resolved\n  \
+         way out: more fluid, or a `domain.spacing_m` of at most a quarter of the depth",
+        short(*depth), short(*depth / *spacing)
+    )]
+    NoDepth { depth: f64, spacing: f64, least: f64 },
     /// A part of the initial fluid that is nowhere.
     #[error(
         "`{name}` fills no cell\n  \
@@ -98,37 +107,39 @@ pub enum PlanProblem {
     #[error(
         "found Mach number {mach:.3}: {speed:.4e} m/s at a time step of {dt:.3e} s\n  \
          allowed: at most {limit}; the equilibrium is of second order in Ma [L3]\n  \
-         way out: a time step of at most {dt_max:.3e} s{}", or_leave(*.given))]
-    MachTooHigh { mach: f64, speed: f64, dt: f64, limit: f64, dt_max: f64, given: bool },
+         way out: {ways}"
+    )]
+    MachTooHigh { mach: f64, speed: f64, dt: f64, limit: f64, ways: Ways },
     /// τ too near ½.
     #[error(
-        "found a relaxation time of {tau:.6} at a time step of {dt:.3e} s\n  \
+        "found a relaxation time of {} at a time step of {dt:.3e} s\n  \
          allowed: at least {limit}, the least for which stability is tabulated [K5] [L6]\n  \
-         way out: a finer `domain.spacing_m` (τ − ½ grows as Δt/Δx²), or a larger viscosity"
+         way out: {ways}",
+        relaxation(*tau)
     )]
-    TauTooSmall { tau: f64, dt: f64, limit: f64 },
+    TauTooSmall { tau: f64, dt: f64, limit: f64, ways: Ways },
     /// τ too large.
     #[error(
         "found a relaxation time of {tau:.4} at a time step of {dt:.3e} s\n  \
          allowed: at most {limit} with {operator}: {because}\n  \
-         way out: a time step of at most {dt_max:.3e} s"
+         way out: {ways}"
     )]
-    TauTooLarge { tau: f64, dt: f64, limit: f64, operator: Operator, because: &'static str, dt_max: f64 },
+    TauTooLarge { tau: f64, dt: f64, limit: f64, operator: Operator, because: &'static str, ways: Ways },
     /// Too few cells between walls.
     #[error(
         "found {cells} cells between walls\n  \
          allowed: at least {least} for the {law}: fewer give fluxes that are off by more than 5 %, up to all of it [B3]\n  \
-         way out: a `domain.spacing_m` of at most {spacing:.3e} m"
+         way out: {ways}"
     )]
-    GapTooNarrow { cells: f64, least: f64, law: &'static str, spacing: f64 },
+    GapTooNarrow { cells: f64, least: f64, law: &'static str, ways: Ways },
     /// Beyond the stability table.
     #[error(
-        "found a speed of {speed:.4} cells per step with {operator} at a relaxation time of {tau:.4}\n  \
-         allowed: at most {limit:.4}, the von Neumann limit [K5]\n  \
-         way out: {}",
-        calmer(*operator)
+        "found a speed of {} cells per step with {operator} at a relaxation time of {}\n  \
+         allowed: at most {}, the von Neumann limit [K5]\n  \
+         way out: {ways}",
+        short(*speed), relaxation(*tau), short(*limit)
     )]
-    Unstable { speed: f64, limit: f64, tau: f64, operator: Operator },
+    Unstable { speed: f64, limit: f64, tau: f64, operator: Operator, ways: Ways },
     /// Nothing says how fast the flow is.
     #[error(
         "no velocity scale: nothing drives the fluid, and its viscosity depends on the shear rate\n  \
@@ -229,6 +240,14 @@ pub enum PlanProblem {
          way out: check its name and content"
     )]
     BadFile { file: String, kind: &'static str, what: String },
+    /// A mesh that is nowhere.
+    #[error(
+        "axis {axis}: the mesh reaches from {} m to {} m\n  \
+         allowed: something between 0 m and {size} m, the box\n  \
+         way out: `scale` of 0.001 where the file is in millimetres, or a `shift_m` that moves it into the box",
+        short(*low), short(*high)
+    )]
+    MeshOutside { axis: char, low: f64, high: f64, size: f64 },
     /// A grain that is not in the box.
     #[error(
         "axis {axis}: the centre of {grain} is at {at_m} m\n  \
@@ -325,17 +344,4 @@ pub enum PlanProblem {
          way out: check the magnitudes of spacing, density and viscosity"
     )]
     NotFinite { quantity: &'static str, found: f64 },
-}
-
-fn or_leave(given: bool) -> &'static str {
-    if given { ", or leave `numerics` to `plan`" } else { "" }
-}
-
-/// Ways out of an unstable choice.
-fn calmer(operator: Operator) -> &'static str {
-    if operator == Operator::CentralMoment {
-        "a finer `domain.spacing_m`, a larger viscosity, or a smaller time step if that brings the speed below the limit"
-    } else {
-        "a smaller time step, a larger viscosity, or `central_moment`"
-    }
 }

@@ -38,21 +38,23 @@ fn along_bed(basis: &Basis) -> Option<f64> {
 }
 
 /// Least and largest τ over all fluids, between rest and the largest expected shear rate.
-pub(super) fn tau_range(basis: &Basis) -> (f64, f64) {
+pub(super) fn tau_range(
+    facts: &Facts,
+    units: &Units,
+    scales: &Scales,
+    yielding: &YieldTreatment,
+) -> (f64, f64) {
     let mut range = (f64::INFINITY, 0.5);
-    for curve in basis.facts.curves() {
-        let at_rest = basis.units.tau_of_viscosity(curve.viscosity_at_rest());
-        let fastest = basis.scales.shear_rate_max;
-        let fast = if fastest > 0.0 {
-            basis.units.tau_of_viscosity(curve.apparent_viscosity(fastest))
-        } else {
-            at_rest
-        };
+    for curve in facts.curves() {
+        let at_rest = units.tau_of_viscosity(curve.viscosity_at_rest());
+        let fastest = scales.shear_rate_max;
+        let fast =
+            if fastest > 0.0 { units.tau_of_viscosity(curve.apparent_viscosity(fastest)) } else { at_rest };
         let (low, high) = if fast < at_rest { (fast, at_rest) } else { (at_rest, fast) };
         range.0 = if low < range.0 { low } else { range.0 };
         range.1 = if high > range.1 { high } else { range.1 };
     }
-    match basis.setup.yielding {
+    match *yielding {
         YieldTreatment::Exact => range,
         YieldTreatment::ImplicitClamped { tau_min, tau_max }
         | YieldTreatment::LaggedClamped { tau_min, tau_max } => {

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::coupled::added_bytes;
+pub use super::limits::available;
 pub(crate) use super::text::human;
 use crate::boundary::cut::cut_count;
 use crate::boundary::hand_over::HandOver;
@@ -97,6 +98,24 @@ pub fn predicted_bytes(setup: &Setup) -> Prediction {
 #[must_use]
 pub fn predict(setup: &Setup, layout: Layout) -> Prediction {
     Prediction::of(&items(setup, layout))
+}
+
+/// Bytes a run holds once the fluid has reached every cell that is not solid; `None` where that is no more than at time 0:
+/// without a free surface, and on a backend that holds every cell.
+///
+/// # Arguments
+/// `items`: those of time 0, with the surface that the fluid has then.
+#[must_use]
+pub(super) fn at_most(setup: &Setup, layout: Layout, items: &[Item]) -> Option<u64> {
+    let surface = setup.free_surface.as_ref()?;
+    if layout == Layout::EveryCell || setup.grains.is_some() || choose::only_plain(setup).is_some() {
+        return None;
+    }
+    let now = items.iter().map(|item| item.bytes).sum::<u64>();
+    let blocks = items.iter().find(|item| item.part == Part::Populations).map_or(0, |item| item.bytes);
+    let fill = (0..setup.cells()).map(|cell| if setup.is_solid(cell) { 0.0 } else { 1.0 }).collect();
+    let full = Setup { free_surface: Some(FreeSurface { fill, ..surface.clone() }), ..setup.clone() };
+    Some(now + fast::predict::bytes(&full).saturating_sub(blocks)).filter(|&most| most > now)
 }
 
 /// What each feature of a set-up costs.
@@ -203,13 +222,4 @@ pub(crate) fn least_bytes_per_cell(scene: &Scene, layout: Layout) -> u64 {
         }
         Layout::Blocks => FIELDS + PICTURE + numbers + PLANNING + if free { SURFACE_FIELDS } else { 0 },
     }
-}
-
-/// Memory that can still be taken, bytes; `None` where the system does not say.
-#[must_use]
-pub fn available() -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    kib.checked_mul(1024)
 }

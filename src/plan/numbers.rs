@@ -4,16 +4,17 @@ use serde::Serialize;
 
 use super::cost::CELL_UPDATES_PER_SECOND;
 use super::coupled::CoupledNumbers;
-use super::figures::{Basis, arrest_thickness, plug_slip, push, rounding_floor, sheared_layer, tau_range};
-use super::memory::{Item, items};
+use super::disk::Files;
+use super::figures::{Basis, arrest_thickness, plug_slip, push, rounding_floor, sheared_layer};
+use super::judge::Judged;
+use super::memory::{Item, at_most, items};
 use super::needs::{Need, passes};
-use super::time_step::{StepRule, reference_viscosity};
+use super::time_step::StepRule;
 use super::wall_error::{Expected, Sweep};
 use super::warning::Warning;
 use crate::scene::Operator;
 use crate::setup::Setup;
 use crate::solver::layout::Layout;
-use crate::stability::max_stable_speed;
 
 /// Everything `lahar plan` shows. Infinite numbers are `null` in JSON.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -94,6 +95,10 @@ pub struct Numbers {
     pub bytes_per_cell: f64,
     /// Bytes of the run.
     pub bytes: u64,
+    /// Bytes once the fluid has reached every open cell; `null` where that is no more.
+    pub bytes_at_most: Option<u64>,
+    /// Files, by kind.
+    pub files: Vec<Files>,
     /// Passes.
     pub passes: Vec<Need>,
     /// Cell updates in the whole run.
@@ -110,6 +115,7 @@ pub struct Numbers {
 /// What the numbers follow from.
 pub(super) struct Given<'a> {
     pub basis: Basis<'a>,
+    pub judged: Judged,
     pub rule: StepRule,
     pub fluid_cells: u64,
     pub layout: Layout,
@@ -134,13 +140,11 @@ pub(super) fn numbers(given: &Given) -> Numbers {
     let cells = setup.cells() as u64;
     let solid_cells = setup.solids.iter().filter(|&&s| s != 0).count() as u64;
     let (u, length) = (scales.velocity, scales.length);
-    let speed_lattice = units.velocity_to_lattice(u);
-    let plastic = reference_viscosity(facts, scales).unwrap_or(f64::NAN);
-    let (tau_min, tau_max) = tau_range(basis);
-    let tau_min = if tau_min.is_finite() { tau_min } else { units.tau_of_viscosity(plastic) };
-    let stable_speed = max_stable_speed(&setup.collision, tau_min).ok().map(|limit| limit.speed);
+    let Judged { speed: speed_lattice, mach, tau_plastic, tau_min, tau_max, .. } = given.judged;
+    let stable_speed = given.judged.stable_speed();
     let slip = plug_slip(basis);
     let (memory, bytes) = counted(setup, given.layout);
+    let bytes_at_most = at_most(setup, given.layout, &memory);
     let cell_updates = given.fluid_cells as f64 * *steps as f64;
     let (viscous_stress, plastic_stress) = (curve.viscous_stress(u / length), curve.plastic_stress());
     Numbers {
@@ -164,9 +168,9 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         reference_length_m: length,
         reynolds: if u > 0.0 { units.rho0_kg_per_m3 * u * u / viscous_stress } else { 0.0 },
         bingham: if plastic_stress > 0.0 { plastic_stress / viscous_stress } else { 0.0 },
-        mach: speed_lattice * 3.0_f64.sqrt(),
+        mach,
         operator: Operator::of(&setup.collision),
-        tau_plastic: if plastic.is_nan() { tau_min } else { units.tau_of_viscosity(plastic) },
+        tau_plastic,
         tau_min,
         tau_max,
         stable_speed,
@@ -181,6 +185,8 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         memory,
         bytes_per_cell: bytes as f64 / cells as f64,
         bytes,
+        bytes_at_most,
+        files: Vec::new(),
         passes: passes(scene, setup),
         cell_updates,
         estimated_seconds: cell_updates / CELL_UPDATES_PER_SECOND,

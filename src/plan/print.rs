@@ -3,8 +3,9 @@
 use std::fmt;
 
 use super::cost::{CELL_UPDATES_PER_SECOND, SPHERE_UPDATES_PER_SECOND, millions};
+use super::disk::total;
 use super::numbers::Numbers;
-use super::text::{passes, row, short, warnings};
+use super::text::{human, passes, relaxation, row, short, warnings};
 
 /// Writes the table.
 pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
@@ -17,6 +18,7 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
         super::coupled::table(f, grains)?;
     }
     memory(f, n)?;
+    files(f, n)?;
     passes(f, &n.passes)?;
     cost(f, n)?;
     warnings(f, &n.warnings)
@@ -89,8 +91,8 @@ fn flow(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
 fn scheme(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     writeln!(f, "\nScheme")?;
     row(f, "collision", format_args!("{}", n.operator))?;
-    row(f, "plastic τ", format_args!("{:.4}", n.tau_plastic))?;
-    row(f, "τ range", format_args!("{:.4} to {}", n.tau_min, tau(n.tau_max)))?;
+    row(f, "plastic τ", format_args!("{}", relaxation(n.tau_plastic)))?;
+    row(f, "τ range", format_args!("{} to {}", relaxation(n.tau_min), tau(n.tau_max)))?;
     stability(f, n)?;
     slip(f, n)?;
     if let Some(expected) = &n.wall_error {
@@ -113,11 +115,22 @@ fn memory(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     for item in &n.memory {
         row(f, item.what, format_args!("{} bytes per cell", short(item.bytes_per_cell)))?;
     }
-    row(
-        f,
-        "total",
-        format_args!("{} bytes per cell, {} MiB", short(n.bytes_per_cell), short(n.bytes as f64 / 1048576.0)),
-    )
+    let mib = |bytes: u64| short(bytes as f64 / 1048576.0);
+    row(f, "total", format_args!("{} bytes per cell, {} MiB", short(n.bytes_per_cell), mib(n.bytes)))?;
+    if let Some(most) = n.bytes_at_most {
+        row(f, "at most", format_args!("{} MiB, once the fluid has reached every open cell", mib(most)))?;
+    }
+    Ok(())
+}
+
+fn files(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
+    writeln!(f, "\nFiles")?;
+    for files in &n.files {
+        let plural = if files.files == 1 { "" } else { "s" };
+        row(f, files.what, format_args!("{} file{plural}, about {}", files.files, human(files.bytes)))?;
+    }
+    let (bytes, count) = total(&n.files);
+    row(f, "total", format_args!("{count} files, about {}, besides plots", human(bytes)))
 }
 
 fn cost(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
@@ -143,12 +156,17 @@ fn stability(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
             f,
             "stability",
             format_args!(
-                "stable up to {limit:.4} cells per step: {} times the expected speed",
+                "stable up to {} cells per step: {} times the expected speed",
+                short(limit),
                 short(margin)
             ),
         ),
-        (Some(limit), None) => row(f, "stability", format_args!("stable up to {limit:.4} cells per step")),
-        (None, _) => row(f, "stability", format_args!("not tabulated for this operator and τ")),
+        (Some(limit), None) => {
+            row(f, "stability", format_args!("stable up to {} cells per step", short(limit)))
+        }
+        (None, _) => {
+            row(f, "stability", format_args!("none by linear theory at τ = ½, the viscosity at rest"))
+        }
     }
 }
 
@@ -167,5 +185,5 @@ fn slip(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
 }
 
 fn tau(tau: f64) -> String {
-    if tau.is_finite() { format!("{tau:.4}") } else { "∞ (γ̇ = 0)".to_owned() }
+    if tau.is_finite() { relaxation(tau) } else { "∞ (γ̇ = 0)".to_owned() }
 }

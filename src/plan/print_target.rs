@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::target::{Answer, Covered, Quote};
-use super::text::{row, short};
+use super::text::{row, short, significant};
 
 impl fmt::Display for Quote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -36,7 +36,8 @@ fn section(f: &mut fmt::Formatter<'_>, c: &Covered) -> fmt::Result {
     row(f, "as written", format_args!("{} {}: {expected}", short(c.cells), c.cells_are))?;
     let a = &c.advice;
     let what = if c.reached { "recommended" } else { "not reached; most exact" };
-    let spacing = short(a.spacing_m);
+    // All digits: edges are whole multiples of it.
+    let spacing = significant(a.spacing_m);
     row(f, what, format_args!("{} {}: a spacing of {spacing} m", short(a.cells), c.cells_are))?;
     let walls = a.wall_rule.map_or_else(String::new, |rule| format!(", `{rule}` walls"));
     row(f, "scheme", format_args!("`{}`{walls}", a.operator))?;

@@ -1,7 +1,7 @@
 //! The fluid at time 0 of a scene with a free surface: fill of the cells, depths and falls.
 
 use super::facts::Facts;
-use crate::geometry::{Axis, Body, Shape, drawn};
+use crate::geometry::{Axis, Body, Bounds, Shape, drawn};
 use crate::scene::{FillLevel, Solid};
 
 /// How the fluid lies at time 0, m.
@@ -71,6 +71,22 @@ impl<'a> Ground<'a> {
         Self { bodies: Vec::new(), solids: &[], ..*self }
     }
 
+    /// Whether a shape fills any cell: only those are looked at that its bounds touch.
+    #[must_use]
+    pub fn any_filled(&self, shape: &Shape) -> bool {
+        let [nx, ny, _] = self.extents;
+        let (dx, up) = (self.spacing_m, self.up.index());
+        let thin = self.extents.map(|n| n == 1);
+        let [x, y, z] = cells_within(&shape.bounds(), self.extents, dx);
+        let filled = |i: usize, j: usize, k: usize| {
+            let cell = i + nx * (j + ny * k);
+            let low = [i, j, k].map(|i| i as f64 * dx);
+            self.solids.get(cell).is_none_or(|&s| s == 0)
+                && drawn(&[shape], &self.bodies, low, dx, thin, up).fill > 0.0
+        };
+        z.into_iter().any(|k| y.clone().any(|j| x.clone().any(|i| filled(i, j, k))))
+    }
+
     /// Fluid inside any of the shapes.
     #[must_use]
     pub fn draw(&self, shapes: &[&Shape]) -> Drawing {
@@ -78,9 +94,11 @@ impl<'a> Ground<'a> {
         let (dx, up) = (self.spacing_m, self.up.index());
         let thin = self.extents.map(|n| n == 1);
         let mut drawing = Drawing { fill: Vec::with_capacity(nx * ny * nz), volume: 0.0 };
+        let mut ranges = Ranges::of(shapes, self.extents, dx);
         for k in 0..nz {
             for j in 0..ny {
                 for i in 0..nx {
+                    let shapes = ranges.near([i, j, k]);
                     let solid = self.solids.get(drawing.fill.len()).is_some_and(|&s| s != 0);
                     let low = [i, j, k].map(|i| i as f64 * dx);
                     let cell = drawn(shapes, &self.bodies, low, dx, thin, up);
@@ -90,6 +108,48 @@ impl<'a> Ground<'a> {
             }
         }
         drawing
+    }
+}
+
+/// Cells along each axis that bounds touch, and one more on either side.
+fn cells_within(bounds: &Bounds, extents: [usize; 3], dx: f64) -> [std::ops::Range<usize>; 3] {
+    std::array::from_fn(|a| {
+        // A cast saturates, and sends what is not a number to 0.
+        let low = ((bounds.min[a] / dx).floor() - 1.0).max(0.0) as usize;
+        let high = ((bounds.max[a] / dx).ceil() + 1.0).max(0.0) as usize;
+        low.min(extents[a])..high.min(extents[a])
+    })
+}
+
+/// Most shapes of which every one is looked at in every cell.
+const FEW: usize = 16;
+
+/// Where shapes are, if there are so many that a cell had better not ask all of them.
+struct Ranges<'a> {
+    shapes: &'a [&'a Shape],
+    cells: Option<Vec<[std::ops::Range<usize>; 3]>>,
+    /// Those that reach into the row of cells along x that is passed, and into the cell.
+    row: Vec<usize>,
+    near: Vec<&'a Shape>,
+}
+
+impl<'a> Ranges<'a> {
+    fn of(shapes: &'a [&'a Shape], extents: [usize; 3], dx: f64) -> Self {
+        let of = |shape: &&Shape| cells_within(&shape.bounds(), extents, dx);
+        let cells = (shapes.len() > FEW).then(|| shapes.iter().map(of).collect());
+        Self { shapes, cells, row: Vec::new(), near: Vec::new() }
+    }
+
+    /// Those that may reach into a cell; rows are passed from their first cell on.
+    fn near(&mut self, [i, j, k]: [usize; 3]) -> &[&'a Shape] {
+        let Some(cells) = &self.cells else { return self.shapes };
+        if i == 0 {
+            let reaches = |s: &usize| cells[*s][1].contains(&j) && cells[*s][2].contains(&k);
+            self.row = (0..cells.len()).filter(reaches).collect();
+        }
+        self.near.clear();
+        self.near.extend(self.row.iter().filter(|s| cells[**s][0].contains(&i)).map(|s| self.shapes[*s]));
+        &self.near
     }
 }
 

@@ -24,19 +24,32 @@ pub(super) fn surface(facts: &Facts, cells: &Cells) -> Found {
     for (path, name, shape) in level.chain(parts) {
         let name = name.to_owned();
         let ground = Ground::of(facts, cells.extents, &cells.solids);
-        let filled = |ground: &Ground| ground.draw(&[shape]).fill.iter().any(|&fill| fill > 0.0);
-        if !filled(&ground.bare()) {
+        if !ground.bare().any_filled(shape) {
             return Err((path, PlanProblem::NoCellFilled { name, spacing: dx }));
         }
-        if !cells.solids.is_empty() && !filled(&ground) {
+        if !cells.solids.is_empty() && !ground.any_filled(shape) {
             return Err((
                 path,
                 PlanProblem::FluidInsideSolids { name, solids: around(scene, &ground, shape) },
             ));
         }
     }
+    deep_enough(cells, dx)?;
     room(cells, facts)?;
     open_faces(cells, facts)
+}
+
+/// Least depth, cells: cells of less than the margin of conversions are air from the first step on.
+const LEAST_DEPTH: f64 = 0.02;
+
+fn deep_enough(cells: &Cells, spacing: f64) -> Found {
+    match &cells.pool {
+        Some(pool) if pool.depth < LEAST_DEPTH * spacing => {
+            let problem = PlanProblem::NoDepth { depth: pool.depth, spacing, least: LEAST_DEPTH };
+            Err(("fluid.initial".to_owned(), problem))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Names of the solids that hold the cells of a shape.

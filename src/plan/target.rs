@@ -8,10 +8,11 @@ use super::cells::{self, Cells};
 use super::facts::Facts;
 use super::nearest_flow::{case_of, scheme_of};
 use super::scale;
+use super::seek::gcd;
 use super::time_step;
 use super::{Numbers, Plan};
-use crate::plan::work::{Advice, Case, Choice, Operator, Walls, Work, predicted, recommend};
-use crate::scene::Scene;
+use crate::plan::work::{Advice, Case, Choice, Operator, Point, Walls, Work, predicted, recommend};
+use crate::scene::{Collision, Operator as SceneOperator, Scene, WallChoice, YieldChoice};
 
 /// A relative error to aim at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,7 +115,7 @@ pub struct Covered {
 pub struct Recommended {
     /// Cells along the length that counts.
     pub cells: f64,
-    /// Largest spacing with that many cells, m.
+    /// Largest spacing with at least as many cells as the run of the table that divides the edges, m.
     pub spacing_m: f64,
     /// `numerics.collision.operator`.
     pub operator: &'static str,
@@ -122,8 +123,7 @@ pub struct Recommended {
     pub wall_rule: Option<&'static str>,
     /// τ of the plastic viscosity in the table.
     pub relaxation_time: f64,
-    /// The time step that this, the speed, compression and the duration leave, s; `null` when the law has
-    /// no viscosity of its own.
+    /// The time step of its plan, s: what that, the speed, compression and the duration leave.
     pub time_step_s: Option<f64>,
     /// Error of the run in the table.
     pub error: f64,
@@ -163,7 +163,12 @@ pub(crate) fn quote_from(work: &Work, scene: &Scene, plan: &Plan, target: Target
         )),
         Ok((case, along, differences)) => {
             covered(work, &facts, plan, &cells, target, (case, along, differences)).map_or_else(
-                || Answer::NotCovered(format!("the table has no result for `{}`", case.name())),
+                || {
+                    Answer::NotCovered(format!(
+                        "the table has no result for `{}` that this scene could be run with",
+                        case.name()
+                    ))
+                },
                 |covered| Answer::Covered(Box::new(covered)),
             )
         }
@@ -187,6 +192,7 @@ fn covered(
         Advice::Missed(choice) => (choice, false),
         Advice::Empty => return None,
     };
+    let advice = recommended(work, facts, numbers, cells, &choice, along)?;
     Some(Covered {
         nearest: case.name(),
         error_is: case.error(),
@@ -196,7 +202,7 @@ fn covered(
         error_as_written: expected.map(|(error, _)| error),
         extrapolated: expected.is_some_and(|(_, outside)| outside),
         reached,
-        advice: recommended(work, facts, numbers, cells, &choice, along),
+        advice,
     })
 }
 
@@ -207,27 +213,24 @@ fn recommended(
     cells: &Cells,
     choice: &Choice,
     along: f64,
-) -> Recommended {
+) -> Option<Recommended> {
     let point = &choice.point;
-    let spacing = numbers.spacing_m * along / point.n;
-    let mut changed = facts.scene.clone();
-    changed.domain.spacing_m = spacing;
-    let scales = scale::scales(facts, cells);
-    let dt = time_step::with_tau(&Facts::of(&changed), &scales, cells.pool.as_ref(), point.tau);
+    let (changed, plan) = runnable(facts, numbers, cells, choice, along)?;
+    let spacing = changed.domain.spacing_m;
+    let dt = plan.numbers.time_step_s;
     // Axes of one cell stay one cell thick.
     let axes = numbers.extents.iter().filter(|&&n| n > 1).count();
     let more = (0..axes).fold(1.0, |product, _| product * numbers.spacing_m / spacing);
-    let updates = dt.map(|dt| numbers.fluid_cells as f64 * more * (numbers.end_time_s / dt).ceil());
+    let updates = numbers.fluid_cells as f64 * more * (numbers.end_time_s / dt).ceil();
     let nanoseconds = choice.speed.as_ref().map(|(_, nanoseconds)| *nanoseconds);
     let measured = work.measured.as_ref().filter(|_| nanoseconds.is_some());
-    Recommended {
-        cells: point.n,
+    Some(Recommended {
+        cells: along * numbers.spacing_m / spacing,
         spacing_m: spacing,
         operator: match point.scheme.operator {
             Operator::CentralMoment => "central_moment",
             Operator::Trt => "trt",
-            Operator::Bgk => "bgk",
-            Operator::LaggedClamp => "bgk with lagged_clamped",
+            Operator::Bgk | Operator::LaggedClamp => "bgk",
         },
         wall_rule: match point.scheme.walls {
             Walls::None => None,
@@ -235,16 +238,81 @@ fn recommended(
             Walls::HalfWay => Some("half_way"),
         },
         relaxation_time: point.tau,
-        time_step_s: dt,
+        time_step_s: Some(dt),
         error: point.error,
-        cell_updates: updates,
+        cell_updates: Some(updates),
         backend: choice.speed.as_ref().map(|(backend, _)| backend.clone()),
         nanoseconds_per_update: nanoseconds,
-        hours: updates.zip(nanoseconds).map(|(updates, ns)| 1e-9 * ns * updates / 3600.0),
+        hours: nanoseconds.map(|ns| 1e-9 * ns * updates / 3600.0),
         measured: measured.map(|m| m.date.clone()),
         machine: measured.map(|m| m.machine.clone()),
-    }
+    })
 }
+
+/// The scene with a choice put into it, and its plan: with at least as many cells as the choice has, of spacings that divide
+/// the edges of the box; the first that has a plan. `None` where none of the [`FINER`] coarsest has.
+fn runnable(
+    facts: &Facts,
+    numbers: &Numbers,
+    cells: &Cells,
+    choice: &Choice,
+    along: f64,
+) -> Option<(Scene, Plan)> {
+    let point = &choice.point;
+    let thick: Vec<usize> = numbers.extents.into_iter().filter(|&n| n > 1).collect();
+    let common = thick.iter().copied().fold(0, gcd).max(1);
+    // A share of 1e-9 above a whole number is rounding.
+    let least = (point.n * common as f64 / along * (1.0 - 1e-9)).ceil().max(1.0) as usize;
+    (least..least + FINER).find_map(|parts| {
+        let spacing = numbers.spacing_m * common as f64 / parts as f64;
+        let mut changed = facts.scene.clone();
+        changed.domain.spacing_m = spacing;
+        for (size, n) in changed.domain.size_m.iter_mut().zip(numbers.extents) {
+            // Axes of one cell stay one cell thick.
+            *size = if n > 1 { *size } else { spacing };
+        }
+        let total: f64 = changed.domain.size_m.iter().map(|size| size / spacing).product();
+        if total > CELLS_PLANNED {
+            return None;
+        }
+        put(&mut changed, point)?;
+        let scales = scale::scales(facts, cells);
+        let step = time_step::with_tau(&Facts::of(&changed), &scales, cells.pool.as_ref(), point.tau);
+        // As in the table, else as `plan` would choose it.
+        [step, None].into_iter().find_map(|step| {
+            let mut tried = changed.clone();
+            tried.numerics.time_step_s = step;
+            let plan = Plan::with_memory(&tried, None).ok()?;
+            Some((tried, plan))
+        })
+    })
+}
+
+/// Gives a scene the scheme of a run of the table.
+fn put(scene: &mut Scene, point: &Point) -> Option<()> {
+    let numerics = &mut scene.numerics;
+    (numerics.time_step_s, numerics.relaxation_time, numerics.target_mach) = (None, None, None);
+    numerics.collision = Collision::default();
+    numerics.collision.operator = Some(match point.scheme.operator {
+        Operator::CentralMoment => SceneOperator::CentralMoment,
+        Operator::Trt => SceneOperator::Trt,
+        Operator::Bgk => SceneOperator::Bgk,
+        // The limits of its clamp belong to the flow they were measured in.
+        Operator::LaggedClamp => return None,
+    });
+    numerics.yield_treatment = YieldChoice::Exact;
+    match point.scheme.walls {
+        Walls::None => {}
+        Walls::Independent => numerics.wall_rule = WallChoice::ViscosityIndependent,
+        Walls::HalfWay => numerics.wall_rule = WallChoice::HalfWay,
+    }
+    Some(())
+}
+
+/// Spacings tried beyond the one with the cells of the table.
+const FINER: usize = 64;
+/// Most cells of a recommendation that is planned to see whether it can be run.
+const CELLS_PLANNED: f64 = 2e7;
 
 #[cfg(test)]
 mod tests {

@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use super::error::PlanProblem;
 use super::facts::Facts;
 use super::scale::Scales;
 use super::surface::Pool;
@@ -14,7 +13,7 @@ const SPEED: f64 = 0.05;
 /// Speed allowed when τ would otherwise fall below [`TAU_LOW`] (Ma = 0.17).
 const SPEED_HIGH: f64 = 0.1;
 /// τ of the plastic viscosity aimed at: larger ones cost accuracy in time, ν Δt/Δx² = 1/6 here.
-const TAU: f64 = 1.0;
+pub(super) const TAU: f64 = 1.0;
 /// τ below which stability and wall accuracy cannot both be had \[K5\].
 const TAU_LOW: f64 = 0.55;
 /// Largest 3 g H Δt²/Δx² \[F7\].
@@ -44,6 +43,8 @@ pub enum StepRule {
     Compression,
     /// Chosen: resolution of the oscillation or of the run's duration.
     Duration,
+    /// Chosen: nearest to the usual choice that stability, Mach number and relaxation time admit.
+    Admissible,
 }
 
 impl StepRule {
@@ -76,6 +77,10 @@ impl StepRule {
                 "chosen: 200 steps per oscillation or run (least of that, 0.05 cells per step, plastic τ = 1, \
                  3fHΔt²/(ρΔx²) = 0.02)"
             }
+            Self::Admissible => {
+                "chosen: the step nearest to the usual one (0.05 cells per step, plastic τ = 1, 3fHΔt²/(ρΔx²) = 0.02, \
+                 200 steps) that is stable and has a tabulated τ"
+            }
         }
     }
 
@@ -91,7 +96,8 @@ impl StepRule {
             | Self::SpeedForTau
             | Self::Tau
             | Self::Compression
-            | Self::Duration => "numerics",
+            | Self::Duration
+            | Self::Admissible => "numerics",
         }
     }
 
@@ -115,41 +121,15 @@ pub(crate) fn reference_viscosity(facts: &Facts, scales: &Scales) -> Option<f64>
     })
 }
 
-/// Δt in s and what fixed it.
-///
-/// # Errors
-/// Neither a velocity nor a viscosity is known.
-pub(crate) fn choose(
+/// Δt where nothing is given: the least of what `tau` of the plastic viscosity, the speed, compression and
+/// the duration allow.
+pub(super) fn free(
     facts: &Facts,
     scales: &Scales,
     pool: Option<&Pool>,
-) -> Result<(f64, StepRule), PlanProblem> {
-    let scene = facts.scene;
-    let dx = scene.domain.spacing_m;
-    let rho = scene.fluid.density_kg_per_m3;
-    let numerics = &scene.numerics;
-    if let Some(dt) = numerics.time_step_s {
-        return Ok((dt, StepRule::Given));
-    }
-    let viscosity = reference_viscosity(facts, scales).ok_or(PlanProblem::NoVelocityScale)?;
-    // [L6]: Δt = (τ − ½) ρ Δx² / (3 μ).
-    let of_tau = |tau: f64| (tau - 0.5) / 3.0 * rho * dx * dx / viscosity;
-    let of_speed = |u: f64| u * dx / scales.velocity;
-    if let Some(tau) = numerics.relaxation_time {
-        return Ok((of_tau(tau), StepRule::RelaxationTime));
-    }
-    if let Some(mach) = numerics.target_mach {
-        if scales.velocity <= 0.0 {
-            return Err(PlanProblem::NoVelocityScale);
-        }
-        return Ok((of_speed(mach / 3.0_f64.sqrt()), StepRule::TargetMach));
-    }
-    Ok(free(facts, scales, pool, TAU, viscosity))
-}
-
-/// Δt where nothing is given: the least of what `tau` of the plastic viscosity, the speed, compression and
-/// the duration allow.
-fn free(facts: &Facts, scales: &Scales, pool: Option<&Pool>, tau: f64, viscosity: f64) -> (f64, StepRule) {
+    tau: f64,
+    viscosity: f64,
+) -> (f64, StepRule) {
     let scene = facts.scene;
     let dx = scene.domain.spacing_m;
     let rho = scene.fluid.density_kg_per_m3;

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::text::short;
+use super::text::{human, relaxation, short};
 use super::wall_error::{ERROR_MAX, Expected, PUSH_MAX};
 use crate::scene::Operator;
 
@@ -10,6 +10,10 @@ use crate::scene::Operator;
 pub(super) const LOW_DENSITY_RATIO: f64 = 0.5;
 /// Gap, cells, down to which the friction of lubrication must be had in full.
 pub(super) const LUBRICATED_GAP: f64 = 0.1;
+
+/// How to write less.
+const CUT: &str = "a longer `every_s` of `output.fields` or `output.grains`, some of the fields (`output.field_names`), a part \
+                   of the box (`output.field_region`) or `\"field_precision\": \"single\"` in `output` make it less";
 
 /// A warning of a plan; its text is what `lahar plan` prints and what its JSON holds.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -29,6 +33,30 @@ pub enum Warning {
         tau: f64,
         /// Cell size, m.
         spacing_m: f64,
+    },
+    /// τ very near ½.
+    #[error(
+        "plastic relaxation time {} is below 0.52: the place of walls that are not plane shifts (at 0.55 the \
+         drag on a sphere is off by up to 13 % already), pressure waves are hardly damped, and a splash or a fast free surface may \
+         be stopped by the guard of the run, as was seen below 0.51; a spacing of {} m brings it \
+         to 0.52",
+        relaxation(*tau),
+        short(*spacing_needed_m)
+    )]
+    TauTiny {
+        /// τ of the plastic viscosity.
+        tau: f64,
+        /// Cell size at which it would be 0.52 with as many cells per step, m.
+        spacing_needed_m: f64,
+    },
+    /// Shear-thickening fluid at rest.
+    #[error(
+        "the viscosity of a fluid of flow index {flow_index} vanishes where nothing is sheared: τ falls to ½ there, for which \
+         no speed is stable by linear theory [K5]; look at the fields where the flow has no shear"
+    )]
+    Thickens {
+        /// Largest flow index.
+        flow_index: f64,
     },
     /// τ large.
     #[error("plastic relaxation time {tau:.2} is above 2: transients are smeared over steps")]
@@ -149,6 +177,62 @@ pub enum Warning {
         volume_m3: f64,
         /// As drawn, m³.
         drawn_m3: f64,
+    },
+    /// A gap or a bar of another width than drawn.
+    #[error(
+        "{what} is {} m wide along {axis} as drawn, and has {cells} cells, {} m, at ({}, {}, {}) m: cells are solid or open as a \
+         whole, and a gap of fewer than 4 is not resolved; a spacing that divides both widths brings them together",
+        short(*drawn_m), short(*cells_m), short(.at_m[0]), short(.at_m[1]), short(.at_m[2])
+    )]
+    OtherWidth {
+        /// Gap or solid.
+        what: &'static str,
+        /// The axis along which it was measured.
+        axis: char,
+        /// Its middle on the line where it is worst, m.
+        at_m: [f64; 3],
+        /// Width as drawn, m.
+        drawn_m: f64,
+        /// Cells across.
+        cells: f64,
+        /// Their width, m.
+        cells_m: f64,
+    },
+    /// Memory that may be needed later.
+    #[error(
+        "blocks of memory follow the fluid: once it has reached every open cell the run holds {}, and {} are available",
+        human(*bytes), human(*available)
+    )]
+    MemoryLater {
+        /// Bytes then.
+        bytes: u64,
+        /// Bytes that can be taken.
+        available: u64,
+    },
+    /// No room on the disk.
+    #[error(
+        "the run writes {files} files, about {}, most of them {largest}, and {} are free where it was planned: {CUT}",
+        human(*bytes), human(*free)
+    )]
+    DiskFull {
+        /// Bytes of all files.
+        bytes: u64,
+        /// Their number.
+        files: u64,
+        /// Bytes free.
+        free: u64,
+        /// The kind that takes most.
+        largest: &'static str,
+    },
+    /// Many files.
+    #[error("the run writes {files} files, about {}, most of them {largest}: {CUT}", human(*bytes))]
+    MuchOutput {
+        /// Bytes of all files.
+        bytes: u64,
+        /// Their number.
+        files: u64,
+        /// The kind that takes most.
+        largest: &'static str,
     },
     /// Small grains.
     #[error(

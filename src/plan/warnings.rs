@@ -4,6 +4,7 @@ use super::figures::Basis;
 use super::numbers::Numbers;
 use super::wall_error::{ERROR_MAX, FEW_CELLS, PUSH_MAX, THIN_LAYER};
 use super::warning::{Warning, holding};
+use crate::rheology::Law;
 use crate::scene::InitialPressure;
 use crate::setup::{Precision, YieldTreatment};
 
@@ -16,6 +17,7 @@ const OTHER_VOLUME: f64 = 1e-2;
 /// All of them, in the order in which they are printed.
 pub(super) fn warnings(n: &Numbers, basis: &Basis) -> Vec<Warning> {
     let mut all = of_the_flow(n);
+    all.extend(of_the_law(basis));
     all.extend(of_the_walls(n));
     all.extend(of_the_scheme(n, basis));
     all.extend(of_the_surface(n));
@@ -27,11 +29,25 @@ fn of_the_flow(n: &Numbers) -> Vec<Warning> {
     let tau = n.tau_plastic;
     holding([
         (n.mach > 0.174, Warning::Mach { mach: n.mach }),
-        (tau < 0.55, Warning::TauSmall { tau, spacing_m: n.spacing_m }),
+        ((0.52..0.55).contains(&tau), Warning::TauSmall { tau, spacing_m: n.spacing_m }),
+        // τ − ½ ∝ Δt/Δx², and Δt ∝ Δx at a given number of cells per step.
+        (tau < 0.52, Warning::TauTiny { tau, spacing_needed_m: n.spacing_m * (tau - 0.5) / 0.02 }),
         (tau > 2.0, Warning::TauLarge { tau }),
         (n.gap_cells < FEW_CELLS && n.depth_cells.is_none(), Warning::FewCells { cells: n.gap_cells }),
         (n.stability_margin.is_some_and(|margin| margin < 2.0), Warning::NearlyUnstable),
     ])
+}
+
+/// A fluid without yield stress that thickens.
+fn of_the_law(basis: &Basis) -> Option<Warning> {
+    let index = |law: &Law| match *law {
+        Law::PowerLaw { n, .. } if n > 1.0 => Some(n),
+        Law::HerschelBulkley { n, sigma0: 0.0, .. } if n > 1.0 => Some(n),
+        _ => None,
+    };
+    let indices = basis.facts.laws.iter().filter_map(index);
+    let exact = basis.setup.yielding == YieldTreatment::Exact;
+    indices.reduce(f64::max).filter(|_| exact).map(|flow_index| Warning::Thickens { flow_index })
 }
 
 fn of_the_walls(n: &Numbers) -> Vec<Warning> {

@@ -1,5 +1,7 @@
 //! What every check of a value needs: the file's name, and a located error.
 
+use std::collections::HashSet;
+
 use super::{SceneError, SceneProblem};
 use crate::geometry::{Axis, Shape};
 
@@ -56,18 +58,21 @@ impl Checker<'_> {
     }
 
     /// A name that can be a column or part of a file name, and is not among `used`.
-    pub(super) fn name(&self, path: &str, name: &str, used: &mut Vec<String>) -> Result<(), SceneError> {
+    pub(super) fn name(&self, path: &str, name: &str, used: &mut HashSet<String>) -> Result<(), SceneError> {
         let good =
             !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
         self.ensure(good, path, || SceneProblem::BadName { name: name.to_owned() })?;
-        let fresh = !used.iter().any(|other| other == name);
-        self.ensure(fresh, path, || SceneProblem::DuplicateName { name: name.to_owned() })?;
-        used.push(name.to_owned());
-        Ok(())
+        let fresh = used.insert(name.to_owned());
+        self.ensure(fresh, path, || SceneProblem::DuplicateName { name: name.to_owned() })
     }
 
     /// A name as in [`Self::name`] that becomes part of file names, and is not too long for that.
-    pub(super) fn file_name(&self, path: &str, name: &str, used: &mut Vec<String>) -> Result<(), SceneError> {
+    pub(super) fn file_name(
+        &self,
+        path: &str,
+        name: &str,
+        used: &mut HashSet<String>,
+    ) -> Result<(), SceneError> {
         let length = name.len();
         self.ensure(length <= LONGEST_NAME, path, || SceneProblem::LongName { length, limit: LONGEST_NAME })?;
         self.name(path, name, used)
@@ -103,11 +108,7 @@ impl Checker<'_> {
             }
             Shape::Sphere { radius_m, .. } => self.radius(&format!("{path}.sphere.radius_m"), *radius_m)?,
             Shape::Polygon { axis, points_m, from_m, to_m } => {
-                let area = shape.polygon_area().unwrap_or(0.0);
-                let corners = points_m.len();
-                self.ensure(corners >= 3 && area > 0.0, &format!("{path}.polygon.points_m"), || {
-                    SceneProblem::FlatPolygon { corners, area }
-                })?;
+                self.polygon(&format!("{path}.polygon.points_m"), shape, points_m)?;
                 if let (Some(low), Some(high)) = (*from_m, *to_m) {
                     self.ensure(low < high, &format!("{path}.polygon"), || SceneProblem::EmptyInterval {
                         axis: axis.letter(),
@@ -120,6 +121,38 @@ impl Checker<'_> {
         }
         self.more_shapes(path, shape, size_m)?;
         if inverted { Ok(()) } else { self.reaches_box(path, shape, size_m) }
+    }
+
+    /// Corners around an area, whose edges do not cross.
+    fn polygon(&self, path: &str, shape: &Shape, points: &[[f64; 2]]) -> Result<(), SceneError> {
+        let (corners, area) = (points.len(), shape.polygon_area().unwrap_or(0.0));
+        // Where edges cross, areas of both signs may cancel: the crossing is what to mend. On one line all is flat.
+        let line = points.windows(3).all(|p| turn(p[0], p[1], p[2]) == 0.0);
+        self.ensure(corners >= 3 && !line, path, || SceneProblem::FlatPolygon { corners, area })?;
+        if let Some(crossing) = shape.crossing() {
+            let corners = crossing.edges.map(|edge| edge + 1);
+            return self.fail(path, SceneProblem::EdgesCross { corners, at: crossing.at });
+        }
+        self.ensure(area > 0.0, path, || SceneProblem::FlatPolygon { corners, area })
+    }
+
+    /// Rows of the same length, without marks of missing data.
+    fn heights(&self, path: &str, rows: &[Vec<f64>]) -> Result<(), SceneError> {
+        let first = rows.first().map_or(0, Vec::len);
+        let other = rows.iter().map(Vec::len).find(|&n| n != first);
+        self.ensure(first > 0 && other.is_none(), path, || SceneProblem::UnevenRows {
+            rows: rows.len(),
+            first,
+            other: other.unwrap_or(0),
+        })?;
+        let places = rows
+            .iter()
+            .enumerate()
+            .flat_map(|(j, row)| row.iter().enumerate().map(move |(i, &height)| (j, i, height)));
+        let mut missing = places.filter(|(.., height)| is_no_data(*height));
+        let Some((row, column, height)) = missing.next() else { return Ok(()) };
+        let count = 1 + missing.count();
+        self.fail(path, SceneProblem::NoData { row: row + 1, column: column + 1, height, count })
     }
 
     /// Cones, half-spaces, terrain and combinations.
@@ -161,14 +194,7 @@ impl Checker<'_> {
                     "it is a distance",
                     way_out,
                 )?;
-                let rows: Vec<usize> = field.heights_m.iter().map(Vec::len).collect();
-                let first = rows.first().copied().unwrap_or(0);
-                let even = first > 0 && rows.iter().all(|&n| n == first);
-                self.ensure(even, &format!("{path}.heights_m"), || SceneProblem::UnevenRows {
-                    rows: rows.len(),
-                    first,
-                    other: rows.iter().copied().find(|&n| n != first).unwrap_or(0),
-                })
+                self.heights(&format!("{path}.heights_m"), field.heights_m())
             }
             Shape::Union(shapes) => parts("union", shapes, false),
             // Parts may reach beyond the box; what they have in common may not be outside.
@@ -183,8 +209,22 @@ impl Checker<'_> {
         }
     }
 
-    fn direction(&self, path: &str, direction: [f64; 3], way_out: &'static str) -> Result<(), SceneError> {
-        self.ensure(direction != [0.0; 3], path, || SceneProblem::ZeroVector { way_out })
+    /// A vector with a direction.
+    pub(super) fn direction(
+        &self,
+        path: &str,
+        direction: [f64; 3],
+        way_out: &'static str,
+    ) -> Result<(), SceneError> {
+        self.ensure(direction != [0.0; 3], path, || SceneProblem::ZeroVector { way_out })?;
+        self.has_length(path, &direction)
+    }
+
+    /// A vector whose length neither overflows nor vanishes.
+    pub(super) fn has_length(&self, path: &str, vector: &[f64]) -> Result<(), SceneError> {
+        let square: f64 = vector.iter().map(|x| x * x).sum();
+        let found = || SceneProblem::EndlessVector { found: vector.to_vec() };
+        self.ensure(square.is_normal(), path, found)
     }
 
     fn radius(&self, path: &str, radius: f64) -> Result<(), SceneError> {
@@ -233,3 +273,14 @@ impl Checker<'_> {
 }
 
 const EMPTY: &str = "else nothing is inside the shape";
+
+/// Marks of missing data in rasters: those of ESRI, GDAL, SRTM and floating-point formats.
+fn is_no_data(height: f64) -> bool {
+    const MARKS: [f64; 6] = [-9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 65535.0];
+    MARKS.contains(&height) || height.abs() >= 1e10
+}
+
+/// Twice the area of a triangle, with sign.
+fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}

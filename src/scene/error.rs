@@ -2,6 +2,7 @@
 
 pub use super::key_rule::KeyRule;
 pub use super::located::Located;
+pub use super::meaning::Hint;
 use super::words::{
     already, choose, did_you_mean, found_keys, list, list_or, list_static, range, rename_or_add,
     rename_or_define, rename_or_remove, right_type, with_space,
@@ -20,6 +21,20 @@ pub enum SceneProblem {
          way out: check the name and that it is a readable text file"
     )]
     Unreadable { kind: std::io::ErrorKind },
+    /// No regular file.
+    #[error(
+        "is a {kind}\n  \
+         allowed: regular files; a scene is read as a whole, and its folder is where meshes and tables are looked for\n  \
+         way out: write the scene into a file first"
+    )]
+    NotAFile { kind: &'static str },
+    /// Text in another encoding.
+    #[error(
+        "{found}, line {line}\n  \
+         allowed: UTF-8, with or without a byte-order mark\n  \
+         way out: save it as UTF-8"
+    )]
+    Encoding { found: &'static str, line: usize },
     /// Not JSON.
     #[error(
         "line {line}, column {column}: not JSON: {detail}\n  \
@@ -44,14 +59,14 @@ pub enum SceneProblem {
     #[error(
         "unknown key `{key}`{}\n  \
          allowed here: {}\n  \
-         way out: {}", did_you_mean(.nearest.as_ref()), list(.allowed), rename_or_remove(.nearest.as_ref()))]
-    UnknownKey { key: String, nearest: Option<String>, allowed: Vec<String> },
+         way out: {}", did_you_mean(.hint.name.as_ref()), list(.allowed), rename_or_remove(.hint))]
+    UnknownKey { key: String, hint: Hint, allowed: Vec<String> },
     /// Unknown choice.
     #[error(
         "unknown choice `{found}`{}\n  \
          allowed here: {}\n  \
-         way out: {}", did_you_mean(.nearest.as_ref()), list(.allowed), choose(.nearest.as_ref(), .allowed))]
-    UnknownChoice { found: String, nearest: Option<String>, allowed: Vec<String> },
+         way out: {}", did_you_mean(.hint.name.as_ref()), list(.allowed), choose(.hint, .allowed))]
+    UnknownChoice { found: String, hint: Hint, allowed: Vec<String> },
     /// Missing key.
     #[error(
         "key `{key}` is missing\n  \
@@ -138,6 +153,13 @@ pub enum SceneProblem {
          way out: put the pairs in order, and keep one of each time"
     )]
     TimesNotAscending { before: f64, found: f64 },
+    /// A vector whose length cannot be had.
+    #[error(
+        "found {found:?}\n  \
+         allowed: components whose squares are numbers, up to 1e150 and not all below 1e-150; only the direction counts\n  \
+         way out: divide them by the largest"
+    )]
+    EndlessVector { found: Vec<f64> },
     /// A direction of length zero.
     #[error(
         "found [0, 0, 0]\n  \
@@ -172,12 +194,23 @@ pub enum SceneProblem {
          way out: add corners that are not on one line"
     )]
     FlatPolygon { corners: usize, area: f64 },
-    /// A combination of no shapes.
+    /// Edges that cross.
     #[error(
-        "found no shape\n  \
-         allowed: at least one\n  \
-         way out: add a shape, or remove the combination"
+        "the edge from corner {} to the next and the one from corner {} to the next meet at ({}, {}) m\n  \
+         allowed: edges that meet at the corner between neighbours only; elsewhere inside and outside are not what is meant\n  \
+         way out: put the corners in order around the area, or make two polygons",
+        .corners[0], .corners[1], .at[0], .at[1]
     )]
+    EdgesCross { corners: [usize; 2], at: [f64; 2] },
+    /// Heights that mark missing data.
+    #[error(
+        "row {row}, column {column}: found {height} m, and {count} heights like it: a mark of missing data\n  \
+         allowed: heights of the ground, less than 1e10 m in magnitude\n  \
+         way out: fill the holes from the heights around them before they are put into the scene"
+    )]
+    NoData { row: usize, column: usize, height: f64, count: usize },
+    /// A combination of no shapes.
+    #[error("found no shape\n  allowed: at least one\n  way out: add a shape, or remove the combination")]
     NoPart,
     /// Rows of different lengths.
     #[error(
@@ -259,11 +292,7 @@ pub enum SceneProblem {
         rename_or_define(.nearest.as_ref(), .kind))]
     UnknownName { kind: &'static str, name: String, nearest: Option<String>, names: Vec<String> },
     /// A list without entries.
-    #[error(
-        "found an empty list\n  \
-         allowed: at least one entry\n  \
-         way out: add {what}"
-    )]
+    #[error("found an empty list\n  allowed: at least one entry\n  way out: add {what}")]
     EmptyList { what: &'static str },
     /// A shape that this cannot be done with.
     #[error(
@@ -295,11 +324,7 @@ pub enum SceneProblem {
     )]
     OutsideDomain { axis: char, low: f64, high: f64, size: f64 },
     /// A name used twice.
-    #[error(
-        "name `{name}` is used twice\n  \
-         allowed: unique names\n  \
-         way out: rename one"
-    )]
+    #[error("name `{name}` is used twice\n  allowed: unique names\n  way out: rename one")]
     DuplicateName { name: String },
     /// A name that cannot be a file name or column.
     #[error(
@@ -368,6 +393,14 @@ pub enum SceneProblem {
          way out: leave one of the two out"
     )]
     OnlyDouble { what: &'static str },
+    /// A field that files do not have.
+    #[error(
+        "files of this scene have no such field\n  \
+         allowed: `fill`, `kind` and `yielded` with a free surface, `covered` with grains, `solid` with solids, `fluid` with \
+         layers, and the others in any scene\n  \
+         way out: remove it from the list"
+    )]
+    NoSuchField,
     /// A time beyond the end.
     #[error(
         "found {found} s\n  \

@@ -43,7 +43,8 @@ pub(crate) struct Forces {
     pub extremes: [[f64; 3]; 2],
     /// Extremes of the driving force.
     pub driving_extremes: [[f64; 3]; 2],
-    /// The axis of the strongest component of the total force, z before y before x; z without a force.
+    /// The normal of the bed where gravity is given by `slope_deg`; else the axis of the strongest component of the total
+    /// force, z before y before x; z without a force.
     pub up: Axis,
     /// Whether that component points to smaller coordinates; true without a force.
     pub down_is_low: bool,
@@ -57,7 +58,13 @@ impl Forces {
         let total = force_without_weight(scene, [false; 3]);
         let driving = force_without_weight(scene, std::array::from_fn(|a| weightless[a] || balanced[a]));
         let extremes = extreme_forces(&total);
-        let (up, down_is_low) = strongest(&extremes);
+        // A bed with a slope stays what it is however steep it is.
+        let bed = scene.gravity.filter(|gravity| gravity.slope_deg.is_some());
+        let bed = bed.map(|gravity| gravity.bed_normal.unwrap_or(Axis::Z));
+        let (up, down_is_low) = match bed {
+            Some(axis) => (axis, extremes.iter().all(|force| force[axis.index()] <= 0.0)),
+            None => strongest(&extremes),
+        };
         Self {
             gravity: scene.gravity.map_or([0.0; 3], |gravity| gravity_vector(&gravity)),
             weightless,
@@ -72,7 +79,7 @@ impl Forces {
         }
     }
 
-    /// The axis along which the total force is strongest; `None` without a force.
+    /// [`Self::up`]; `None` without a force.
     #[must_use]
     pub(crate) fn up_axis(&self) -> Option<Axis> {
         self.extremes.iter().flatten().any(|f| *f != 0.0).then_some(self.up)
@@ -80,8 +87,8 @@ impl Forces {
 }
 
 impl Scene {
-    /// The axis along which gravity and body force are strongest (z before y before x), normal to beds and
-    /// levels; `None` without a force.
+    /// The axis normal to beds and levels: that of `bed_normal`, else the one along which gravity and body force are strongest
+    /// (z before y before x); `None` without a force.
     #[must_use]
     pub(crate) fn up_axis(&self) -> Option<Axis> {
         Forces::of(self).up_axis()

@@ -8,16 +8,19 @@ mod coupled;
 mod domain;
 pub mod dry;
 mod error;
+mod field_choice;
 mod fluid;
 pub(crate) mod force;
 mod key_rule;
 mod located;
+mod meaning;
 mod motion;
 mod nearest;
 mod numerics;
 mod operator;
 mod parse;
 pub(crate) mod probe;
+pub(crate) mod read;
 mod rheology;
 pub(crate) mod series;
 mod view;
@@ -32,10 +35,12 @@ pub use build::SceneBuilder;
 pub use coupled::{Coupling, GrainRefillChoice, GrainWallChoice, LubricationChoice, LubricationRules};
 pub use domain::{Boundaries, Boundary, Domain, End};
 pub use error::{KeyRule, Located, SceneError, SceneProblem};
+pub use field_choice::{FieldChoice, FieldName, FieldPrecision, FieldRegion};
 pub use fluid::{
     BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialPressure, InitialVelocity, Layer,
     Solid,
 };
+pub use meaning::Hint;
 pub use motion::{FACE_KEYS, Motion, Motions};
 pub use numerics::{
     Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Numerics, Output, PrecisionChoice, RefillChoice,
@@ -124,7 +129,7 @@ impl AnyScene {
 /// The file cannot be read, is not JSON, does not have the shape of a scene, or holds values that
 /// make no sense. The message names the file (without its folder) and the JSON path.
 pub fn load(path: &Path) -> Result<AnyScene, SceneError> {
-    let (text, file) = text_of(path)?;
+    let (text, file) = read::text_of(path)?;
     from_json(&text, &file, folder_of(path))
 }
 
@@ -133,7 +138,7 @@ pub fn load(path: &Path) -> Result<AnyScene, SceneError> {
 /// # Errors
 /// As [`load`]; a scene without `fluid` does not have the shape.
 pub fn load_flow(path: &Path) -> Result<Scene, SceneError> {
-    let (text, file) = text_of(path)?;
+    let (text, file) = read::text_of(path)?;
     flow_from_json(&text, &file, folder_of(path))
 }
 
@@ -142,7 +147,7 @@ pub fn load_flow(path: &Path) -> Result<Scene, SceneError> {
 /// # Errors
 /// As [`load`]; a scene with `fluid` does not have the shape.
 pub fn load_dry(path: &Path) -> Result<dry::DryScene, SceneError> {
-    let (text, file) = text_of(path)?;
+    let (text, file) = read::text_of(path)?;
     dry_from_json(&text, &file, folder_of(path))
 }
 
@@ -187,15 +192,6 @@ pub(crate) fn dry_from_json(text: &str, file: &str, folder: &Path) -> Result<dry
 
 fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new("."))
-}
-
-fn text_of(path: &Path) -> Result<(String, String), SceneError> {
-    let file =
-        path.file_name().map_or_else(|| "scene".to_owned(), |name| name.to_string_lossy().into_owned());
-    match std::fs::read_to_string(path) {
-        Ok(text) => Ok((text, file)),
-        Err(error) => Err(SceneError::new(&file, "", SceneProblem::Unreadable { kind: error.kind() })),
-    }
 }
 
 /// The JSON Schema of a scene, pretty-printed, with a final newline.

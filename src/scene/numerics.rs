@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::field_choice::{FieldName, FieldPrecision, FieldRegion};
 use super::{Operator, Probe, Subject};
 
 /// Numerical choices. All optional: without them the run uses the scheme known to be best.
@@ -272,6 +273,15 @@ pub struct Output {
     /// Fields for ParaView: at the end only when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<Cadence>,
+    /// Which fields the files hold: all that the scene has when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub field_names: Option<Vec<FieldName>>,
+    /// The part of the box that they hold: all of it when not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub field_region: Option<FieldRegion>,
+    /// Numbers in them.
+    #[serde(default, skip_serializing_if = "FieldPrecision::is_double")]
+    pub field_precision: FieldPrecision,
     /// Rows of the time series: 100 when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub series: Option<Cadence>,

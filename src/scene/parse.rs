@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
 
-use super::nearest::nearest;
+use super::meaning::hint;
 use super::{SceneError, SceneProblem};
 
 /// Parses without checking values.
@@ -26,8 +26,14 @@ pub(super) fn parse<S: DeserializeOwned>(text: &str, file: &str) -> Result<S, Sc
             Category::Data => located(tidy(&path), shape_problem(&message(&inner))),
             // serde_json calls a number in place of a choice a mistake of syntax.
             _ if message(&inner) == "expected value" && is_json(text) => {
+                if let Some(problem) = several_choices(text, &path) {
+                    return located(tidy(&path), problem);
+                }
                 let found = "a value of another type".to_owned();
                 located(tidy(&path), SceneProblem::WrongType { found, expected: in_plain_words("enum ") })
+            }
+            _ if message(&inner) == "trailing characters" && is_json(text) => {
+                located(tidy(&path), too_many(text, &path))
             }
             _ => located(tidy(&path), syntax_problem(text, &inner)),
         }
@@ -46,6 +52,44 @@ pub(super) fn is_dry(text: &str) -> bool {
     }
     text.trim_start().starts_with('{')
         && matches!(serde_json::from_str::<Keys>(text), Ok(Keys { fluid: None, grains: Some(_) }))
+}
+
+/// serde_json calls it trailing characters where an array or a choice ends later than it should.
+fn too_many(text: &str, path: &str) -> SceneProblem {
+    let value: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
+    match at_path(&value, path) {
+        Some(serde_json::Value::Array(entries)) => SceneProblem::WrongType {
+            found: format!("an array of {} entries", entries.len()),
+            expected: "fewer: 3 for a vector, 4 for an orientation, 2 for a pair".to_owned(),
+        },
+        Some(serde_json::Value::Object(keys)) => SceneProblem::WrongType {
+            found: format!("an object with {} keys", keys.len()),
+            expected: "a choice, as text or as an object with one key".to_owned(),
+        },
+        _ => SceneProblem::WrongType {
+            found: "more than belongs here".to_owned(),
+            expected: "see `lahar schema`".to_owned(),
+        },
+    }
+}
+
+/// An object with several keys, or none, in place of a choice.
+fn several_choices(text: &str, path: &str) -> Option<SceneProblem> {
+    let value: serde_json::Value = serde_json::from_str(text).ok()?;
+    let keys = at_path(&value, path)?.as_object()?.len();
+    (keys != 1).then(|| SceneProblem::WrongType {
+        found: format!("an object with {keys} keys"),
+        expected: "one choice: text, or an object with one key".to_owned(),
+    })
+}
+
+/// The value at a path as `a.b[2].c`, as far as it is there.
+fn at_path<'a>(value: &'a serde_json::Value, path: &str) -> Option<&'a serde_json::Value> {
+    let parts = path.split(['.', '[', ']']).filter(|part| !part.is_empty() && *part != "?");
+    parts.into_iter().try_fold(value, |value, part| match value {
+        serde_json::Value::Array(entries) => entries.get(part.parse::<usize>().ok()?),
+        other => other.get(part),
+    })
 }
 
 fn is_json(text: &str) -> bool {
@@ -95,13 +139,13 @@ fn shape_problem(message: &str) -> SceneProblem {
     let quoted = quoted(message);
     if message.starts_with("unknown field") {
         let (key, allowed) = split_first(quoted);
-        let nearest = nearest(&key, &allowed).map(str::to_owned);
-        return SceneProblem::UnknownKey { key, nearest, allowed };
+        let hint = hint(&key, &allowed);
+        return SceneProblem::UnknownKey { key, hint, allowed };
     }
     if message.starts_with("unknown variant") {
         let (found, allowed) = split_first(quoted);
-        let nearest = nearest(&found, &allowed).map(str::to_owned);
-        return SceneProblem::UnknownChoice { found, nearest, allowed };
+        let hint = hint(&found, &allowed);
+        return SceneProblem::UnknownChoice { found, hint, allowed };
     }
     if message.starts_with("missing field") {
         return SceneProblem::MissingKey { key: split_first(quoted).0 };

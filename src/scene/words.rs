@@ -1,5 +1,7 @@
 //! Pieces of messages about scenes.
 
+use super::meaning::Hint;
+
 pub(super) fn range(low: f64, high: f64) -> String {
     if high == f64::INFINITY { format!("at least {low}") } else { format!("{low} to {high}") }
 }
@@ -12,8 +14,13 @@ pub(super) fn did_you_mean(nearest: Option<&String>) -> String {
     nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
 
-pub(super) fn rename_or_remove(nearest: Option<&String>) -> String {
-    nearest.map_or_else(|| "remove it".to_owned(), |name| format!("rename it to `{name}`"))
+pub(super) fn rename_or_remove(hint: &Hint) -> String {
+    match (&hint.name, hint.note) {
+        (Some(name), "") => format!("rename it to `{name}`"),
+        (Some(name), note) => format!("rename it to `{name}`: {note}"),
+        (None, "") => "remove it".to_owned(),
+        (None, note) => note.to_owned(),
+    }
 }
 
 pub(super) fn rename_or_add(nearest: Option<&String>) -> String {
@@ -24,8 +31,14 @@ pub(super) fn rename_or_define(nearest: Option<&String>, kind: &str) -> String {
     nearest.map_or_else(|| format!("name a {kind} of the scene, or add it"), |name| format!("write `{name}`"))
 }
 
-pub(super) fn choose(nearest: Option<&String>, allowed: &[String]) -> String {
-    nearest.or(allowed.first()).map_or_else(String::new, |name| format!("write `{name}`"))
+pub(super) fn choose(hint: &Hint, allowed: &[String]) -> String {
+    match (&hint.name, hint.note) {
+        (Some(name), "") => format!("write `{name}`"),
+        (Some(name), note) => format!("write `{name}`: {note}"),
+        (None, "") if allowed.len() == 1 => format!("write {}", list(allowed)),
+        (None, "") => "write one of them".to_owned(),
+        (None, note) => note.to_owned(),
+    }
 }
 
 pub(super) fn list(names: &[String]) -> String {

@@ -125,9 +125,6 @@ impl Precision {
     }
 }
 
-/// Speed that stops every run, cells per step: 0.7 of that of sound.
-pub(crate) const SPEED_LIMIT: f64 = 0.4;
-
 /// Body force per volume (lattice units); enters as a constant force, not ρg \[L5\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BodyForce {
@@ -280,6 +277,9 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// Speed, cells per step, above which a run is stopped unless a set-up says otherwise: 0.7 of that of sound.
+    pub const SPEED_LIMIT: f64 = 0.4;
+
     /// Whether links can be cut where surfaces lie \[B4\]: while every solid rests and no motion changes in time.
     ///
     /// Beside a turning drum whose axis lies 0.2 to 0.4 cells beside the middle of the grid, fluid gains momentum of
@@ -311,7 +311,7 @@ impl Setup {
             free_surface: None,
             grains: None,
             loads: false,
-            speed_limit: SPEED_LIMIT,
+            speed_limit: Self::SPEED_LIMIT,
             precision: Precision::Double,
             threads: 1,
         }

@@ -58,6 +58,9 @@ pub(super) fn classes(setup: &Setup, spacing: f64, mixture: &Mixture) -> (Vec<Cl
         .map(|group| SizeClass { diameter_m: 2.0 * mean(group), volume_share: volume(group) / whole })
         .collect();
     let (reports, note) = match classify(&sizes, mixture) {
+        _ if mixture.shear_rate.is_nan() || mixture.shear_rate <= 0.0 => {
+            (Vec::new(), Some("nothing is expected to shear the fluid".to_owned()))
+        }
         Ok(reports) => (reports, None),
         Err(error) => (Vec::new(), Some(error.to_string())),
     };

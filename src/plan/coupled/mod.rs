@@ -53,7 +53,7 @@ pub(super) struct Started {
     view: DryScene,
     placed: Placed,
     /// Fastest grain relative to the fluid, m/s.
-    pub slip: f64,
+    slip: f64,
     /// Fastest wall, driven grain, or grain at time 0, m/s.
     pub given: f64,
     /// Speed that contacts are planned for, m/s.
@@ -148,6 +148,11 @@ fn densities(scene: &Scene, setup: &Grains) -> Result<(), PlanError> {
 }
 
 impl Started {
+    /// Speed of the fastest grain, m/s.
+    pub(super) fn fastest(&self) -> f64 {
+        self.slip + self.given
+    }
+
     /// Sub-steps, gravity and rules; puts the grains into the set-up.
     pub(super) fn finish(
         self,

@@ -150,7 +150,8 @@ fn mixture(given: &Given, n: &CoupledNumbers) -> Mixture {
             .density_ratio
             .map_or(fluid_density, |[low, high]| 0.5 * (low + high) * fluid_density),
         fluid_density,
-        viscosity_pa_s: if shear_rate > 0.0 { viscosity() } else { f64::NAN },
+        // At rest it is not looked at.
+        viscosity_pa_s: if shear_rate > 0.0 { viscosity() } else { 0.0 },
         shear_rate,
     }
 }

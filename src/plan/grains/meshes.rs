@@ -120,8 +120,8 @@ fn triangles(points: &[[f64; 2]]) -> Vec<[u32; 3]> {
 /// # Errors
 /// Numbers that are not finite.
 pub(super) fn terrain(field: &Heightfield, size_m: [f64; 3]) -> Result<Mesh, DemError> {
-    let rows = field.heights_m.len();
-    let columns = field.heights_m.first().map_or(0, Vec::len);
+    let rows = field.heights_m().len();
+    let columns = field.heights_m().first().map_or(0, Vec::len);
     let lines = |origin: f64, count: usize, size: f64| {
         let mut lines: Vec<f64> = (0..count).map(|k| origin + k as f64 * field.spacing_m).collect();
         let (first, last) = (lines.first().copied().unwrap_or(0.0), lines.last().copied().unwrap_or(0.0));
@@ -190,11 +190,7 @@ mod tests {
         let mesh = prism(Axis::Y, &square, [2.0, 5.0]).unwrap();
         assert_eq!(mesh.bounds(), (V3::new(0.0, 2.0, 0.0), V3::new(1.0, 5.0, 1.0)));
         assert_eq!(mesh.triangles.len(), 2 * 4 + 2 * 2);
-        let field = Heightfield {
-            origin_m: [0.0; 2],
-            spacing_m: 1.0,
-            heights_m: vec![vec![0.0, 1.0], vec![0.0, 1.0]],
-        };
+        let field = Heightfield::new([0.0; 2], 1.0, vec![vec![0.0, 1.0], vec![0.0, 1.0]]);
         let mesh = terrain(&field, [1.0, 1.0, 1.0]).unwrap();
         assert_eq!(mesh.bounds(), (V3::new(-1.0, -1.0, 0.0), V3::new(2.0, 2.0, 1.0)));
     }

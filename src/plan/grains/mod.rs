@@ -1,5 +1,6 @@
 //! Scene without fluid to plan: the set-up of the discrete element method, its time step, its cost.
 
+mod beside;
 mod materials;
 mod meshes;
 mod numbers;
@@ -15,6 +16,7 @@ pub use numbers::GrainNumbers;
 pub(crate) use place::COLUMNS;
 pub use walls::Walls;
 
+use super::disk;
 use super::error::{PlanError, PlanProblem};
 use crate::dem::{self, DemError, Setup};
 use crate::scene::Boundary;
@@ -66,7 +68,12 @@ impl GrainPlan {
     pub fn with_memory(scene: &DryScene, available: Option<u64>) -> Result<Self, PlanError> {
         let placed = Self::placed(scene, available)?;
         let speed = speed::design(scene, &placed.setup);
-        Self::finish(scene, placed, speed, None)
+        let mut plan = Self::finish(scene, placed, speed, None)?;
+        let n = &mut plan.numbers;
+        let written = disk::Grains { grains: n.grains, clumps: n.clumps, spheres: n.spheres };
+        n.files = disk::dry(scene, written, plan.steps);
+        n.warnings.extend(disk::warning(&n.files, disk::free()));
+        Ok(plan)
     }
 
     /// Walls and grains, without a time step.

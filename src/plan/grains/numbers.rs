@@ -7,6 +7,7 @@ use crate::dem::contact::restitution::hertz_largest_overlap;
 use crate::dem::material::{Compiled, PairLaw};
 use crate::dem::{Dem, Integrator, Pace, Setup, Surface};
 use crate::plan::cost::SPHERE_UPDATES_PER_SECOND;
+use crate::plan::disk::Files;
 use crate::plan::needs::Need;
 use crate::plan::warning::{Warning, holding};
 use crate::scene::dry::DryScene;
@@ -74,6 +75,9 @@ pub struct GrainNumbers {
     pub passes: Vec<Need>,
     /// Bytes.
     pub bytes: u64,
+    /// Files, by kind; empty for grains in a fluid, whose plan lists them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<Files>,
     /// Spheres times steps.
     pub sphere_updates: f64,
     /// Rough time on one thread, s.
@@ -131,6 +135,7 @@ pub(super) fn numbers(
         integrator: integrator(setup.integrator),
         passes: Vec::new(),
         bytes: (b.len() as f64 * bytes_per_grain(members as f64 / b.len().max(1) as f64, gear)) as u64,
+        files: Vec::new(),
         sphere_updates: updates,
         estimated_seconds: updates / SPHERE_UPDATES_PER_SECOND,
         warnings: Vec::new(),

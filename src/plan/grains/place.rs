@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::beside::path_of;
 use super::speed::check_count;
 use crate::dem::packing::{self, Lattice, Random, Region, Sizes};
 use crate::dem::{Clump, DemError, Grain, Orientation, Period, Setup, Shape as Form, Sphere, V3};
@@ -265,7 +266,8 @@ pub(crate) const COLUMNS: [(&str, &str); 14] = [
 fn table(scene: &DryScene, file: &str) -> Result<Vec<GrainAt>, PlanProblem> {
     let refuse =
         |what: String| PlanProblem::BadFile { file: file.to_owned(), kind: "a table of grains", what };
-    let series = Series::read(&scene.folder.join(file)).map_err(|error| {
+    let path = path_of(scene, file).map_err(refuse)?;
+    let series = Series::read(&path).map_err(|error| {
         refuse(match error {
             crate::output::OutputError::Io { source, .. } => source.kind().to_string(),
             crate::output::OutputError::Malformed { line, problem, .. } => format!("line {line}: {problem}"),

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::GrainNumbers;
 use crate::plan::cost::{SPHERE_UPDATES_PER_SECOND, millions};
+use crate::plan::disk::total;
 use crate::plan::text::{human, passes, row, short, warnings};
 
 pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
@@ -74,6 +75,8 @@ fn time(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
 fn cost(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
     writeln!(f, "\nCost")?;
     row(f, "memory", format_args!("{}, if grains are packed densely", human(n.bytes)))?;
+    let (bytes, files) = total(&n.files);
+    row(f, "files", format_args!("{files}, about {}, besides plots", human(bytes)))?;
     row(f, "sphere updates", format_args!("{}", short(n.sphere_updates)))?;
     row(
         f,

@@ -1,5 +1,6 @@
 //! Faces of the box and solids to walls that grains touch \[D5\].
 
+use super::beside::path_of;
 use super::meshes;
 use crate::dem::walls::{Mesh, Side, Surface, Wall, WallMotion};
 use crate::dem::{Orientation, V3};
@@ -155,6 +156,28 @@ fn read(scene: &DryScene, given: &MeshFile) -> Result<Mesh, PlanProblem> {
         };
         PlanProblem::BadFile { file: given.file.clone(), kind: "an STL or OBJ mesh", what }
     };
-    let mesh = Mesh::read(&scene.folder.join(&given.file)).map_err(refused)?;
-    mesh.moved(given.scale.unwrap_or(1.0), given.shift_m.into()).map_err(refused)
+    let kind = "an STL or OBJ mesh";
+    let path = path_of(scene, &given.file).map_err(|what| PlanProblem::BadFile {
+        file: given.file.clone(),
+        kind,
+        what,
+    })?;
+    let mesh = Mesh::read(&path).map_err(refused)?;
+    let mesh = mesh.moved(given.scale.unwrap_or(1.0), given.shift_m.into()).map_err(refused)?;
+    reaches_box(&mesh, scene.domain.size_m)?;
+    Ok(mesh)
+}
+
+/// Meshes of which nothing is in the box are a wrong unit or place.
+fn reaches_box(mesh: &Mesh, size_m: [f64; 3]) -> Result<(), PlanProblem> {
+    let (low, high) = mesh.bounds();
+    for axis in Axis::ALL {
+        let (a, size) = (axis.index(), size_m[axis.index()]);
+        // On a face it still touches grains.
+        if high[a] < 0.0 || low[a] > size {
+            let (low, high) = (low[a], high[a]);
+            return Err(PlanProblem::MeshOutside { axis: axis.letter(), low, high, size });
+        }
+    }
+    Ok(())
 }

@@ -10,7 +10,7 @@ use crate::output::{OutputError, vti, vtp};
 use crate::run::folder::Folder;
 use crate::run::measure::fields::{PROFILE_COLUMNS, is_fluid, profile, unyielded};
 use crate::run::measure::fluid::{Frame, SECTION_COLUMNS};
-use crate::scene::{Measure, Probe};
+use crate::scene::{FieldChoice, FieldName, FieldPrecision, Measure, Probe};
 use crate::setup::Setup;
 use crate::solver::run::Fields;
 use crate::state::{State, StateError, Tape, state};
@@ -23,6 +23,7 @@ pub(super) struct Files<'a> {
     collection: Collection,
     surfaces: Collection,
     written: usize,
+    choice: FieldChoice,
 }
 
 /// A section at one time, kept for the plot at the end.
@@ -37,7 +38,7 @@ state!(Section: probe time_s rows);
 
 impl State for Files<'_> {
     fn state(&mut self, tape: &mut Tape<'_>) -> Result<(), StateError> {
-        let Self { sections, collection, surfaces, written, folder: _, setup: _ } = self;
+        let Self { sections, collection, surfaces, written, folder: _, setup: _, choice: _ } = self;
         sections.state(tape)?;
         collection.state(tape)?;
         surfaces.state(tape)?;
@@ -56,7 +57,7 @@ pub(super) struct Shot<'a> {
 }
 
 impl<'a> Files<'a> {
-    pub fn new(setup: &'a Setup, folder: Arc<Folder>) -> Self {
+    pub fn new(setup: &'a Setup, choice: FieldChoice, folder: Arc<Folder>) -> Self {
         Self {
             folder,
             setup,
@@ -64,6 +65,7 @@ impl<'a> Files<'a> {
             collection: Collection::default(),
             surfaces: Collection::default(),
             written: 0,
+            choice,
         }
     }
 
@@ -134,22 +136,25 @@ impl<'a> Files<'a> {
         let solid: Vec<u8> = self.setup.solids.iter().map(|&s| u8::from(s != 0)).collect();
         let mut image = vti::Image::new(self.setup.extents, [0.0; 3], units.dx_m)
             .time(shot.time_s)
-            .scalar("pressure_pa", &pressure)
-            .vector("velocity_m_per_s", &velocity)
-            .tensor("stress_pa", &stress)
-            .scalar("shear_rate_per_s", &rate)
-            .mask("unyielded", &plug);
-        if !fields.kind.is_empty() {
-            image = image.scalar("fill", &fields.fill).mask("kind", &fields.kind).mask("yielded", &yielded);
-        }
-        if let Some(covered) = shot.covered {
-            image = image.mask("covered", covered);
-        }
-        if !solid.is_empty() {
-            image = image.mask("solid", &solid);
-        }
-        if !self.setup.fluid_of_cell.is_empty() {
-            image = image.mask("fluid", &self.setup.fluid_of_cell);
+            .window(self.choice.cells.clone())
+            .single(self.choice.precision == FieldPrecision::Single);
+        for field in FieldName::ALL.into_iter().filter(|field| self.choice.names.contains(field)) {
+            image = match field {
+                FieldName::Pressure => image.scalar("pressure_pa", &pressure),
+                FieldName::Velocity => image.vector("velocity_m_per_s", &velocity),
+                FieldName::Stress => image.tensor("stress_pa", &stress),
+                FieldName::ShearRate => image.scalar("shear_rate_per_s", &rate),
+                FieldName::Unyielded => image.mask("unyielded", &plug),
+                FieldName::Fill | FieldName::Kind | FieldName::Yielded if fields.kind.is_empty() => image,
+                FieldName::Fill => image.scalar("fill", &fields.fill),
+                FieldName::Kind => image.mask("kind", &fields.kind),
+                FieldName::Yielded => image.mask("yielded", &yielded),
+                FieldName::Covered => {
+                    shot.covered.into_iter().fold(image, |image, c| image.mask("covered", c))
+                }
+                FieldName::Solid => image.mask("solid", &solid),
+                FieldName::Fluid => image.mask("fluid", &self.setup.fluid_of_cell),
+            };
         }
         image.write(&self.path(name)?)
     }

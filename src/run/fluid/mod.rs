@@ -26,7 +26,7 @@ use super::stop::StopReport;
 use super::summary::Parts;
 use crate::output::OutputError;
 use crate::plan::Plan;
-use crate::scene::{Measure, RestMeasure, Scene};
+use crate::scene::{FieldChoice, Measure, RestMeasure, Scene};
 use crate::solver::run::{Backend, Fields, Run};
 use crate::solver::steady::{SteadyOutcome, Watch, push};
 use crate::state::{State as _, StateError, Tape, part};
@@ -85,7 +85,7 @@ impl<'a> Flow<'a> {
             fields: run.fields(),
             mass: MassWatch { start: run.totals().mass_excess, end: u64::MAX },
             frame: Frame::new(scene, plan.units),
-            files: Files::new(&plan.setup, Arc::clone(recorder.folder())),
+            files: Files::new(&plan.setup, FieldChoice::of(scene), Arc::clone(recorder.folder())),
             watch: None,
             scene,
             plan,

@@ -3,7 +3,7 @@
 use crate::dem::DemError;
 use crate::plan::Plan;
 use crate::run::stop::{StopPlace, StopReport};
-use crate::setup::SPEED_LIMIT;
+use crate::setup::Setup;
 use crate::solver::run::{Runaway, Stopped};
 
 /// A report about a run of the scene `file`. `failure`: what the discrete element method says. `number`: number at time
@@ -80,7 +80,7 @@ fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
     } else if matches!(stopped.what, Runaway::GrainTooFast { .. }) {
         "grains fall faster than the velocity scale assumed; give `numerics.reference_velocity_m_per_s` or a smaller \
          time step"
-    } else if matches!(stopped.what, Runaway::TooFast { limit, .. } if limit < SPEED_LIMIT) {
+    } else if matches!(stopped.what, Runaway::TooFast { limit, .. } if limit < Setup::SPEED_LIMIT) {
         "five times the speed that forces, walls and fall can give is passed: the solver has made it, by waves at a relaxation \
          time near ½ [K5] or at a wall; a finer `domain.spacing_m`, a larger viscosity, or `half_way` surfaces"
     } else if stopped.tau < 0.55 {

@@ -1,5 +1,7 @@
 //! Checks of the fluid, its layers, the solids and gravity.
 
+use std::collections::HashSet;
+
 use crate::geometry::Axis;
 use crate::scene::checker::Checker;
 use crate::scene::{
@@ -16,9 +18,7 @@ pub(in crate::scene) fn check_gravity(at: &Checker, gravity: &Gravity) -> Result
     at.not_negative(path, magnitude, "m/s²", "its direction is a key of its own", "turn `direction` round")?;
     match (gravity.direction, gravity.slope_deg) {
         (Some(direction), None) => {
-            at.ensure(direction != [0.0; 3], "gravity.direction", || SceneProblem::ZeroVector {
-                way_out: "[0, 0, -1] for downward along z",
-            })?;
+            at.direction("gravity.direction", direction, "[0, 0, -1] for downward along z")?;
             at.ensure(gravity.bed_normal.is_none(), "gravity.bed_normal", || SceneProblem::UnusedKey {
                 key: "bed_normal",
                 because: "it belongs to `slope_deg`",
@@ -54,6 +54,8 @@ pub(super) fn check_fluid(at: &Checker, scene: &Scene) -> Result<(), SceneError>
     at.positive("fluid.density_kg_per_m3", density, "kg/m³", "it is the mass unit", "1000 for water")?;
     fluid.rheology.check(at, "fluid.rheology")?;
     match fluid.body_force {
+        // Without an amplitude nothing oscillates: a sweep over it may begin at 0.
+        Some(BodyForce::Oscillating { amplitude_n_per_m3: [0.0, 0.0, 0.0], frequency_hz: 0.0, .. }) => {}
         Some(BodyForce::Oscillating { frequency_hz, .. }) => {
             let path = "fluid.body_force.oscillating.frequency_hz";
             at.positive(path, frequency_hz, "1/s", "it is a frequency", "use `constant` for a steady force")?;
@@ -74,7 +76,7 @@ pub(super) fn check_fluid(at: &Checker, scene: &Scene) -> Result<(), SceneError>
 pub(super) fn check_layers(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
     let found = scene.layers.len();
     at.ensure(found < MAX_ENTRIES, "layers", || SceneProblem::TooMany { found, max: MAX_ENTRIES - 1 })?;
-    let mut names = Vec::new();
+    let mut names = HashSet::new();
     for (i, layer) in scene.layers.iter().enumerate() {
         let path = format!("layers[{i}]");
         at.name(&format!("{path}.name"), &layer.name, &mut names)?;
@@ -87,16 +89,11 @@ pub(super) fn check_layers(at: &Checker, scene: &Scene) -> Result<(), SceneError
 pub(super) fn check_solids(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
     let found = scene.solids.len();
     at.ensure(found <= MAX_ENTRIES, "solids", || SceneProblem::TooMany { found, max: MAX_ENTRIES })?;
-    let mut names = Vec::new();
+    let mut names = HashSet::new();
     for (i, solid) in scene.solids.iter().enumerate() {
         let path = format!("solids[{i}]");
         at.name(&format!("{path}.name"), &solid.name, &mut names)?;
         at.shape(&format!("{path}.shape"), &solid.shape, scene.domain.size_m, solid.invert)?;
-        let unused = solid.centre_m.is_some() && solid.spin_rad_per_s == [0.0; 3];
-        at.ensure(!unused, &format!("{path}.centre_m"), || SceneProblem::UnusedKey {
-            key: "centre_m",
-            because: "the solid does not spin",
-        })?;
     }
     Ok(())
 }

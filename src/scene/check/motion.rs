@@ -1,9 +1,9 @@
 //! Checks of motions in time.
 
 use crate::scene::checker::Checker;
-use crate::scene::{Boundary, Motion, Scene, SceneError, SceneProblem, Solid};
+use crate::scene::{Boundary, Motion, Scene, SceneError, SceneProblem};
 
-/// Motions belong to walls and solids that move, and say something at every time.
+/// Motions belong to walls that can move and to solids, and say something at every time.
 pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
     let faces = scene.domain.boundaries.by_axis();
     for (axis, side, key, motion) in scene.domain.motion.named() {
@@ -15,16 +15,10 @@ pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
     }
     for (i, solid) in scene.solids.iter().enumerate() {
         let Some(motion) = &solid.motion else { continue };
-        let path = format!("solids[{i}].motion");
-        let because = "the solid has neither `velocity_m_per_s` nor `spin_rad_per_s`";
-        at.ensure(moves(solid), &path, || SceneProblem::UnusedKey { key: "motion", because })?;
-        one(at, &path, motion, scene)?;
+        // A solid whose velocity and spin are 0 may have one: a sweep over them may begin there.
+        one(at, &format!("solids[{i}].motion"), motion, scene)?;
     }
     Ok(())
-}
-
-fn moves(solid: &Solid) -> bool {
-    solid.velocity_m_per_s != [0.0; 3] || solid.spin_rad_per_s != [0.0; 3]
 }
 
 fn one(at: &Checker, path: &str, motion: &Motion, scene: &Scene) -> Result<(), SceneError> {
@@ -33,6 +27,7 @@ fn one(at: &Checker, path: &str, motion: &Motion, scene: &Scene) -> Result<(), S
         allowed: "walls that move steadily: grains feel the velocity of time 0",
     })?;
     match motion {
+        Motion::Oscillating { frequency_hz: 0.0, amplitude: 0.0, .. } => Ok(()),
         Motion::Oscillating { frequency_hz, .. } => {
             let path = format!("{path}.oscillating.frequency_hz");
             let way_out = "leave `motion` out for a steady velocity";

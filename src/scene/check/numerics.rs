@@ -79,10 +79,14 @@ fn collision(at: &Checker, collision: &Collision) -> Result<(), SceneError> {
     for (key, value) in given {
         let Some(value) = value else { continue };
         let path = format!("{path}.{key}");
-        at.ensure(!one_rate, &path, || SceneProblem::UnusedKey {
+        // 0 switches it off, as these operators do.
+        at.ensure(!one_rate || value == 0.0, &path, || SceneProblem::UnusedKey {
             key,
             because: "only `trt` and `central_moment` have an odd relaxation rate of their own [K2]",
         })?;
+        if one_rate {
+            continue;
+        }
         if key == "magic" {
             at.positive(&path, value, "", "Λ = (τ⁺ − ½)(τ⁻ − ½) [K2]", "0.1875: walls exactly half-way")?;
         } else {

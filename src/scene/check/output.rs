@@ -1,7 +1,10 @@
 //! Checks of outputs.
 
+use std::collections::HashSet;
+
 use super::probes::{Place, probes};
 use crate::scene::checker::Checker;
+use crate::scene::field_choice;
 use crate::scene::probe::Subject;
 use crate::scene::{Cadence, Scene, SceneError, SceneProblem};
 
@@ -9,7 +12,8 @@ pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
     let end = scene.stop.end_time_s;
     cadence(at, "output.fields", scene.output.fields, end)?;
     cadence(at, "output.series", scene.output.series, end)?;
-    let mut names = Vec::new();
+    field_choice::check(at, scene)?;
+    let mut names = HashSet::new();
     probes(at, &scene.output.probes, &place(scene, "output.probes", Subject::Fluid), &mut names)
 }
 

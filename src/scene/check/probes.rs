@@ -1,5 +1,7 @@
 //! Checks of probes, whatever they are about.
 
+use std::collections::HashSet;
+
 use crate::geometry::{Axis, Shape};
 use crate::scene::checker::Checker;
 use crate::scene::nearest::nearest;
@@ -35,7 +37,7 @@ pub(in crate::scene) fn probes(
     at: &Checker,
     list: &[Probe],
     place: &Place,
-    names: &mut Vec<String>,
+    names: &mut HashSet<String>,
 ) -> Result<(), SceneError> {
     for (i, probe) in list.iter().enumerate() {
         let path = format!("{}[{i}]", place.path);

@@ -1,5 +1,7 @@
 //! Checks of the initial fluid and of what goes only with a free surface, or not with one.
 
+use std::collections::HashSet;
+
 use crate::geometry::Axis;
 use crate::scene::checker::Checker;
 use crate::scene::{Boundary, FACE_KEYS, FillLevel, InitialVelocity, Scene, SceneError, SceneProblem};
@@ -12,7 +14,7 @@ pub(super) fn check(at: &Checker, scene: &Scene) -> Result<(), SceneError> {
     if let Some(level) = &initial.fill_level {
         fill_level(at, scene, level)?;
     }
-    let mut names = Vec::new();
+    let mut names = HashSet::new();
     for (i, part) in initial.shapes.iter().enumerate() {
         let path = format!("{path}.shapes[{i}]");
         if let Some(name) = &part.name {

@@ -1,5 +1,7 @@
 //! Value checks of scenes without fluid. The first problem found is reported; order is that of the file.
 
+use std::collections::{HashMap, HashSet};
+
 use super::check_place::placement;
 use super::{ClumpMembers, Contact, ContactLaw, DryScene, GrainSolid};
 use crate::geometry::{Axis, Shape};
@@ -80,7 +82,7 @@ fn domain(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
 fn materials(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
     let list = &scene.grains.materials;
     at.some("grains.materials", list.len(), "a material")?;
-    let mut names = Vec::new();
+    let mut names = HashSet::new();
     for (i, m) in list.iter().enumerate() {
         let path = |key: &str| format!("grains.materials[{i}].{key}");
         at.name(&path("name"), &m.name, &mut names)?;
@@ -99,6 +101,7 @@ fn materials(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
         })?;
     }
     contact(at, "grains.contact", &scene.grains.contact)?;
+    let names: Vec<String> = list.iter().map(|m| m.name.clone()).collect();
     for (i, pair) in scene.grains.pairs.iter().enumerate() {
         for (k, name) in pair.between.iter().enumerate() {
             known(at, &format!("grains.pairs[{i}].between[{k}]"), "material", name, &names)?;
@@ -144,7 +147,7 @@ fn contact(at: &Checker, path: &str, contact: &Contact) -> Result<(), SceneError
 }
 
 fn clumps(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
-    let mut names = Vec::new();
+    let mut names = HashSet::new();
     for (i, clump) in scene.grains.clumps.iter().enumerate() {
         at.name(&format!("grains.clumps[{i}].name"), &clump.name, &mut names)?;
         let path = format!("grains.clumps[{i}].members");
@@ -179,11 +182,12 @@ fn sets(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
     at.some("grains.sets", scene.grains.sets.len(), "a set of grains")?;
     let materials: Vec<String> = scene.grains.materials.iter().map(|m| m.name.clone()).collect();
     let clumps: Vec<String> = scene.grains.clumps.iter().map(|c| c.name.clone()).collect();
-    let mut names: Vec<String> = Vec::new();
+    let mut names = HashSet::new();
+    let mut folded = HashMap::new();
     for (i, set) in scene.grains.sets.iter().enumerate() {
         let path = |key: &str| format!("grains.sets[{i}].{key}");
-        let twin = names.iter().find(|other| other.eq_ignore_ascii_case(&set.name)).cloned();
         at.file_name(&path("name"), &set.name, &mut names)?;
+        let twin = folded.insert(set.name.to_ascii_lowercase(), set.name.clone());
         at.ensure(twin.is_none(), &path("name"), || SceneProblem::NamesCollide {
             what: "the file",
             name: format!("grains_final_{}.csv", set.name),
@@ -233,7 +237,7 @@ fn numerics(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
 
 fn solids(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
     let materials: Vec<String> = scene.grains.materials.iter().map(|m| m.name.clone()).collect();
-    let mut names = Vec::new();
+    let mut names = HashSet::new();
     for (i, solid) in scene.solids.iter().enumerate() {
         let path = |key: &str| format!("solids[{i}].{key}");
         at.name(&path("name"), &solid.name, &mut names)?;
@@ -300,7 +304,7 @@ fn output(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
         solids: scene.solids.iter().map(|s| s.name.clone()).collect(),
         sets: scene.grains.sets.iter().map(|s| s.name.clone()).collect(),
     };
-    probes(at, &scene.output.probes, &place, &mut Vec::new())
+    probes(at, &scene.output.probes, &place, &mut HashSet::new())
 }
 
 fn optional_name(

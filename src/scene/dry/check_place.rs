@@ -21,6 +21,9 @@ pub(super) fn placement(
                 radius(&path("radius_m"), grain.radius_m)?;
                 let turned = grain.orientation.is_none_or(|q| q != [0.0; 4]);
                 at.ensure(turned, &path("orientation"), || SceneProblem::ZeroQuaternion)?;
+                if let Some(q) = grain.orientation {
+                    at.has_length(&path("orientation"), &q)?;
+                }
             }
             Ok(())
         }
