@@ -10,6 +10,7 @@ mod error;
 mod facts;
 mod fastest;
 mod figures;
+mod film_error;
 pub mod grains;
 mod initial;
 mod judge;

@@ -3,6 +3,7 @@
 use super::cells::Cells;
 use super::error::PlanProblem;
 use super::facts::Facts;
+use super::film_error::LEAST_DEPTH;
 use super::surface::{Ground, level_shape};
 use crate::geometry::{Axis, Shape};
 use crate::lattice::C;
@@ -38,9 +39,6 @@ pub(super) fn surface(facts: &Facts, cells: &Cells) -> Found {
     room(cells, facts)?;
     open_faces(cells, facts)
 }
-
-/// Least depth, cells: cells of less than the margin of conversions are air from the first step on.
-const LEAST_DEPTH: f64 = 0.02;
 
 fn deep_enough(cells: &Cells, spacing: f64) -> Found {
     match &cells.pool {

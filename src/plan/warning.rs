@@ -2,6 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
+use super::film_error::film_error;
 use super::text::{human, relaxation, short};
 use super::wall_error::{ERROR_MAX, Expected, PUSH_MAX};
 use crate::scene::Operator;
@@ -139,9 +140,7 @@ pub enum Warning {
     #[error("nothing is expected to move: no force, wall or initial flow overcomes the yield stress")]
     NothingMoves,
     /// A thin film.
-    #[error(
-        "the fluid is at most {cells:.1} cells deep at time 0: a film of less than 4 cells is off by several per cent"
-    )]
+    #[error("the fluid is at most {} cells deep at time 0: {}", short(*cells), film_error(*cells))]
     Shallow {
         /// Depth, cells.
         cells: f64,

@@ -111,16 +111,19 @@ fn materials(at: &Checker, scene: &DryScene) -> Result<(), SceneError> {
     optional_name(at, "grains.wall_material", "material", scene.grains.wall_material.as_ref(), &names)
 }
 
+/// Least restitution: down to it collisions are tested to make no energy, and take steps that end.
+const LEAST_RESTITUTION: f64 = 1e-6;
+
 fn contact(at: &Checker, path: &str, contact: &Contact) -> Result<(), SceneError> {
     let restitution = |key: &str, e: f64| {
-        at.ensure(e > 0.0 && e <= 1.0, &format!("{path}.law.{key}.restitution"), || {
+        at.ensure((LEAST_RESTITUTION..=1.0).contains(&e), &format!("{path}.law.{key}.restitution"), || {
             SceneProblem::OutOfRange {
                 found: e,
                 unit: "",
-                low: 0.0,
+                low: LEAST_RESTITUTION,
                 high: 1.0,
-                because: "0 excluded: it is the share of the speed that a collision leaves",
-                way_out: "0.9 for hard spheres",
+                because: "the share of the speed that a collision leaves; with less the dashpot sets the time step",
+                way_out: "0.9 for hard spheres, 0.001 for collisions that leave as good as nothing",
             }
         })
     };
