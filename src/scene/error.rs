@@ -16,10 +16,7 @@ pub type SceneError = Located<SceneProblem>;
 #[allow(missing_docs, reason = "the message above each variant says what its fields are")]
 pub enum SceneProblem {
     /// The file could not be read.
-    #[error(
-        "cannot be read: {kind}\n  \
-         way out: check the name and that it is a readable text file"
-    )]
+    #[error("cannot be read: {kind}\n  way out: check the name and that it is a readable text file")]
     Unreadable { kind: std::io::ErrorKind },
     /// No regular file.
     #[error(
@@ -30,8 +27,7 @@ pub enum SceneProblem {
     NotAFile { kind: &'static str },
     /// Text in another encoding.
     #[error(
-        "{found}, line {line}\n  \
-         allowed: UTF-8, with or without a byte-order mark\n  \
+        "{found}, line {line}\n  allowed: UTF-8, with or without a byte-order mark\n  \
          way out: save it as UTF-8"
     )]
     Encoding { found: &'static str, line: usize },
@@ -69,40 +65,34 @@ pub enum SceneProblem {
     UnknownChoice { found: String, hint: Hint, allowed: Vec<String> },
     /// Missing key.
     #[error(
-        "key `{key}` is missing\n  \
-         allowed: scenes that have it; there is no default\n  \
+        "key `{key}` is missing\n  allowed: scenes that have it; there is no default\n  \
          way out: add `\"{key}\": …` here"
     )]
     MissingKey { key: String },
     /// Key given twice.
     #[error(
-        "key `{key}` is given twice\n  \
-         allowed: each key once\n  \
+        "key `{key}` is given twice\n  allowed: each key once\n  \
          way out: remove one of the two"
     )]
     DuplicateKey { key: String },
     /// Wrong JSON type.
     #[error(
-        "found {found}\n  \
-         allowed: {expected}\n  \
+        "found {found}\n  allowed: {expected}\n  \
          way out: {}", right_type(.found))]
     WrongType { found: String, expected: String },
     /// A quantity that must be > 0.
     #[error(
-        "found {found}{}\n  \
-         allowed: > 0, {because}\n  \
+        "found {found}{}\n  allowed: > 0, {because}\n  \
          way out: {way_out}", with_space(.unit))]
     NotPositive { found: f64, unit: &'static str, because: &'static str, way_out: &'static str },
     /// A quantity that must be ≥ 0.
     #[error(
-        "found {found}{}\n  \
-         allowed: ≥ 0, {because}\n  \
+        "found {found}{}\n  allowed: ≥ 0, {because}\n  \
          way out: {way_out}", with_space(.unit))]
     Negative { found: f64, unit: &'static str, because: &'static str, way_out: &'static str },
     /// A quantity with a range.
     #[error(
-        "found {found}{}\n  \
-         allowed: {}, {because}\n  \
+        "found {found}{}\n  allowed: {}, {because}\n  \
          way out: {way_out}", with_space(.unit), range(*.low, *.high))]
     OutOfRange {
         found: f64,
@@ -121,15 +111,13 @@ pub enum SceneProblem {
     NotMultiple { size: f64, spacing: f64, cells: f64, nearest: f64 },
     /// An edge shorter than a cell.
     #[error(
-        "found {size} m, less than one cell of {spacing} m\n  \
-         allowed: at least one whole cell\n  \
+        "found {size} m, less than one cell of {spacing} m\n  allowed: at least one whole cell\n  \
          way out: an edge of {spacing} m, or a smaller `domain.spacing_m`"
     )]
     NoCell { size: f64, spacing: f64 },
     /// More cells than can be indexed.
     #[error(
-        "found {cells:.3e} cells\n  \
-         allowed: at most {max}, the largest cell index\n  \
+        "found {cells:.3e} cells\n  allowed: at most {max}, the largest cell index\n  \
          way out: a coarser `domain.spacing_m`, or one cell along periodic axes on which nothing changes"
     )]
     TooManyCells { cells: f64, max: u64 },
@@ -162,8 +150,7 @@ pub enum SceneProblem {
     EndlessVector { found: Vec<f64> },
     /// A direction of length zero.
     #[error(
-        "found [0, 0, 0]\n  \
-         allowed: any vector but this one; it has no direction\n  \
+        "found [0, 0, 0]\n  allowed: any vector but this one; it has no direction\n  \
          way out: {way_out}"
     )]
     ZeroVector { way_out: &'static str },
