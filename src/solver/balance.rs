@@ -97,3 +97,48 @@ impl Carrying<'_> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::direction;
+    use crate::solver::run::Load;
+
+    /// Load along x that a cell puts on a solid at +x; all other links lead to `beside`.
+    fn load_of(after: &[f64; Q], arrived: &[f64; Q], fill: [f64; 2], beside: LinkEnd) -> f64 {
+        let ends = std::array::from_fn(|i| if C[i][0] < 0 { LinkEnd::Wall(1) } else { beside });
+        let carrying = Carrying { fill, after, arrived, force: [0.0; 3], weight: [0.0; 3], ends };
+        let mut entries = Entries::new(1);
+        for i in (1..Q).filter(|&i| C[i][0] < 0) {
+            let both = arrived[i] + after[opposite(i)];
+            let brought = C[i].map(|c| f64::from(c) * both);
+            entries.loads[0].add(&Pull { i, brought, share: 0.0, arm: [0.0; 3] });
+        }
+        carrying.enter(&mut entries, |_, _| [0.0; 3]);
+        let mut load = Load::default();
+        entries.loads[0].enter(&mut load);
+        load.force[0]
+    }
+
+    #[test]
+    fn exact_load_of_a_drop_that_stops() {
+        // In gas, at j = 1/4 along x before the wall and at rest after it: φ j, whatever its links say.
+        let mut after = [0.0; Q];
+        if let Some(i) = direction([1, 0, 0]) {
+            after[i] = 0.25;
+        }
+        let gas = LinkEnd::Cell(Kind::Gas, 0.0);
+        assert_eq!(load_of(&after, &[0.0; Q], [0.5, 0.5], gas), 0.125);
+        // It goes on as before: nothing.
+        assert_eq!(load_of(&after, &after, [0.5, 0.5], gas), 0.0);
+    }
+
+    #[test]
+    fn exact_load_of_pressure_through_a_partly_filled_cell() {
+        // Liquid beside it presses with δρ/3: each link brings twice w δρ, and the wall gets it in full.
+        let f: [f64; Q] = std::array::from_fn(|i| crate::lattice::W[i] * 0.375);
+        let load = load_of(&f, &f, [0.25, 0.25], LinkEnd::Cell(Kind::Liquid, 1.0));
+        // Thirty roundings of numbers below 1/8.
+        assert!((load - 0.125).abs() < 1e-15, "{load}");
+    }
+}
