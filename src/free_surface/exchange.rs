@@ -12,7 +12,7 @@ use crate::lattice::{C, Q, W, opposite};
 /// one gains is what the other loses, to the last bit.
 ///
 /// # Arguments
-/// `neighbour`: kind of the cell at the other end. `share`, `neighbour_share`: c of the two cells ([`carried`]); φ where the
+/// `neighbour`: kind of the cell at the other end. `share`, `neighbour_share`: c of the two cells (`carried`); φ where the
 /// surface does not matter.
 /// # Source
 /// 000 Eq 12, 001 Eq 11, 004 Eq 3.31; docs/errata.md 20 (fill, not mass), 21 (sum, not difference).

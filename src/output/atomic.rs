@@ -16,7 +16,7 @@ static COUNTER: AtomicU64 = AtomicU64::new(0);
 
 /// Writes `bytes` to `path`: into a temporary file of the same folder, which is then renamed. A reader sees the old file or
 /// the new one, never a part, even when the program is killed. Missing folders are made. Against a failure of the machine
-/// [`sync`] the folder when all files that belong together are there.
+/// `sync` the folder when all files that belong together are there.
 ///
 /// # Errors
 /// [`OutputError::Io`] naming the path; the temporary file is removed.
