@@ -127,9 +127,10 @@ impl Kernel for CollisionKernel {
     fn run<L: Lane>(&self, x: &[L]) -> Vec<L> {
         let (h, force) = split(x);
         let omega = L::splat(self.1);
-        let mut out = self.0.collide(&h, &moments(&h, &force), omega).to_vec();
-        out.extend(self.0.odd_departure(&h, &moments(&h, &force)));
-        out.extend([self.0.odd_omega(omega), self.0.wanted_odd_excess(omega)]);
+        let m = moments(&h, &force);
+        let mut out = self.0.collide(&h, &m, omega).to_vec();
+        out.extend(self.0.odd_departure(&h, &m));
+        out.extend([self.0.odd_omega(omega, m.square()), self.0.wanted_odd_excess(omega)]);
         out
     }
 }
@@ -225,6 +226,7 @@ impl Kernel for SlipKernel {
             [(0.1, 1.0, 0.0), (1e-3, 1.1, 1e-9), (1e-6, 1.0, -1e-7), (2.0, 0.3, 0.0), (0.0, 1.0, 0.0)]
         {
             let wall = WallStress {
+                squares: [L::splat(0.01) * q, L::zero()],
                 cell: (L::one() - L::splat(0.5) * omega) * q,
                 traction: L::splat(traction) * q,
                 force: L::splat(force) * q,
@@ -238,7 +240,7 @@ impl Kernel for SlipKernel {
             let fluid = wall_law::Fluid::new(
                 self.0.thickens(),
                 |sigma| relaxation::flow(&self.0, self.1, slow.as_ref(), omega, sigma),
-                |omega: L| L::splat(0.2) * omega,
+                |omega: L, square: L| L::splat(0.2) * omega + square,
             );
             out.push(wall_law::slip(&wall, &fluid));
         }

@@ -76,7 +76,7 @@ proptest! {
             prop_assert_eq!(departure, b.odd_departure(&h, &m));
             prop_assert!(density_excess(&departure).abs() <= bound);
             prop_assert!(momentum(&departure).iter().all(|j| j.abs() <= bound));
-            let change: f64 = b.odd_omega(omega) - a.odd_omega(omega);
+            let change: f64 = b.odd_omega(omega, 0.0) - a.odd_omega(omega, 0.0);
             let (post_a, post_b) = (a.collide(&h, &m, omega), b.collide(&h, &m, omega));
             for i in 0..Q {
                 let found = post_a[i] - post_b[i];

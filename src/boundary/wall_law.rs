@@ -23,6 +23,8 @@ pub struct WallStress<L = f64> {
     pub omega: L,
     /// √(½ Q:Q) of the cell.
     pub magnitude: L,
+    /// u² of the cell and of the wall.
+    pub squares: [L; 2],
 }
 
 /// Stresses closer than this, relative to the largest, are averaged by two points instead of a difference of Γ: the
@@ -53,7 +55,7 @@ pub struct Fluid<F, O> {
 
 impl<F, O> Fluid<F, O> {
     /// `thickens`: whether the law does ([`crate::rheology::Rheology::thickens`]). `flow`: γ̇(σ), its slope and integral.
-    /// `odd_excess`: τ⁻ − ½ that goes with an ω⁺.
+    /// `odd_excess`: τ⁻ − ½ that goes with an ω⁺ and u².
     #[inline(always)]
     pub const fn new(thickens: bool, flow: F, odd_excess: O) -> Self {
         Self { thickens, flow, odd_excess }
@@ -78,7 +80,7 @@ impl<F, O> Fluid<F, O> {
 /// # Verified by
 /// Claims `poiseuille-thesis-channel`, `poiseuille-scheme-closed-form`; mutant `wall-slip-explicit`.
 #[inline(always)]
-pub fn slip<L: Lane, F: Fn(L) -> Flow<L>, O: Fn(L) -> L>(wall: &WallStress<L>, fluid: &Fluid<F, O>) -> L {
+pub fn slip<L: Lane, F: Fn(L) -> Flow<L>, O: Fn(L, L) -> L>(wall: &WallStress<L>, fluid: &Fluid<F, O>) -> L {
     let zero = L::zero();
     let third = L::splat(1.0 / 3.0) * wall.rho;
     let driven = L::and(zero.less(wall.force), zero.less(wall.traction));
@@ -148,13 +150,15 @@ impl<L: Lane> Ahead<L> {
     /// is not the one that the rule sums, taken at the last node instead of the first. A thickening law has no
     /// slope at rest to expand about: there the wall cell's own half step is taken off and m is zero.
     #[inline(always)]
-    fn new<F: Fn(L) -> Flow<L>, O: Fn(L) -> L>(wall: &WallStress<L>, f: L, fluid: &Fluid<F, O>) -> Self {
+    fn new<F: Fn(L) -> Flow<L>, O: Fn(L, L) -> L>(wall: &WallStress<L>, f: L, fluid: &Fluid<F, O>) -> Self {
         let (zero, half, twelfth) = (L::zero(), L::splat(0.5), L::splat(1.0 / 12.0));
         let flow = &fluid.flow;
         let own = signed(flow, wall.cell);
         let (mut missed, mut slope) = (zero, zero);
         let (mut s, mut at) = (wall.cell, own);
         let (mut last_s, mut last) = (wall.cell, own);
+        // How much faster than the wall the last node is; the half cell at the wall has the rate of its node.
+        let mut faster = half * own.rate;
         for _ in 0..INTERVALS {
             let next = s - f;
             let below = signed(flow, next);
@@ -162,6 +166,7 @@ impl<L: Lane> Ahead<L> {
             let close = f.less_equal(L::splat(CLOSE) * s.abs());
             let mean = mean(flow, [next, s], [&below, &at], close);
             missed = missed + L::select(inside, mean - half * (at.rate + below.rate), zero);
+            faster = faster + L::select(inside, mean, zero);
             let bend = (at.rate - below.rate) / f - half * (at.slope + below.slope);
             slope = slope + L::select(inside, bend, zero);
             (s, at) = (next, below);
@@ -175,8 +180,10 @@ impl<L: Lane> Ahead<L> {
         let rest = (twelfth * f) * fluidity - twelfth * (at.rate - below.rate);
         let rest_bend = (twelfth * f) * fluidity_bend - twelfth * (at.slope - below.slope);
         let (_, own_bend) = apparent(&own, wall.cell);
-        let odd = |s: L, at: &Flow<L>| (fluid.odd_excess)(rate_of(wall.rho, s, at.rate));
-        let shift = L::splat(2.0) * f / wall.rho * (odd(wall.cell, &own) - odd(last_s, &last));
+        let odd = |s: L, at: &Flow<L>, square: L| (fluid.odd_excess)(rate_of(wall.rho, s, at.rate), square);
+        let [slow, carried] = wall.squares;
+        let shift = odd(wall.cell, &own, slow) - odd(last_s, &last, carried + faster * faster);
+        let shift = L::splat(2.0) * f / wall.rho * shift;
         missed = missed + L::select(further, rest, zero) + shift - f * (wall.local / wall.rho);
         if fluid.thickens {
             return Self { missed: missed - half * own.rate, slope: zero };

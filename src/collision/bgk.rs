@@ -42,7 +42,7 @@ impl Collision for Bgk {
     }
 
     #[inline(always)]
-    fn odd_omega<L: Lane>(&self, omega: L) -> L {
+    fn odd_omega<L: Lane>(&self, omega: L, _square: L) -> L {
         omega
     }
 }

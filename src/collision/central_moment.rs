@@ -23,7 +23,7 @@ impl Collision for CentralMoment {
     /// Claims `poiseuille-newtonian-magic`, `poiseuille-bingham`, `central-moment-galilean`.
     #[inline(always)]
     fn collide<L: Lane>(&self, h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q] {
-        let keep_odd = L::one() - self.odd_omega(omega);
+        let keep_odd = L::one() - self.odd_omega(omega, m.square());
         let p = relaxed_stress(m, omega);
         let a = third_hermite(h);
         let relaxed = third_post(m, &a, &p, keep_odd);
@@ -40,8 +40,8 @@ impl Collision for CentralMoment {
     }
 
     #[inline(always)]
-    fn odd_omega<L: Lane>(&self, omega: L) -> L {
-        self.odd.odd_omega(omega)
+    fn odd_omega<L: Lane>(&self, omega: L, square: L) -> L {
+        self.odd.odd_omega(omega, square)
     }
 
     #[inline(always)]

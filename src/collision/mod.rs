@@ -28,8 +28,8 @@ pub trait Collision: Copy + Send + Sync + 'static {
     /// `omega`: even relaxation rate ω⁺ in \[0, 2).
     fn collide<L: Lane>(&self, h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q];
 
-    /// The odd relaxation rate ω⁻ that goes with `omega`.
-    fn odd_omega<L: Lane>(&self, omega: L) -> L;
+    /// The odd relaxation rate ω⁻ that goes with `omega` in a cell of the squared velocity `square`.
+    fn odd_omega<L: Lane>(&self, omega: L, square: L) -> L;
 
     /// Odd non-equilibrium of the pre-collision populations, with half the force: what relaxes with
     /// ω⁻. Its mass and momentum are zero.
@@ -41,7 +41,7 @@ pub trait Collision: Copy + Send + Sync + 'static {
     /// τ⁻ − ½ before any floor: what Λ asks for \[K6\].
     #[inline(always)]
     fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
-        L::one() / self.odd_omega(omega) - L::splat(0.5)
+        L::one() / self.odd_omega(omega, L::zero()) - L::splat(0.5)
     }
 }
 
@@ -96,8 +96,8 @@ impl Collision for CollisionChoice {
         for_each_collision!(self, operator => operator.collide(h, m, omega))
     }
     #[inline(always)]
-    fn odd_omega<L: Lane>(&self, omega: L) -> L {
-        for_each_collision!(self, operator => operator.odd_omega(omega))
+    fn odd_omega<L: Lane>(&self, omega: L, square: L) -> L {
+        for_each_collision!(self, operator => operator.odd_omega(omega, square))
     }
     fn has_cubic_equilibrium(&self) -> bool {
         for_each_collision!(self, operator => operator.has_cubic_equilibrium())

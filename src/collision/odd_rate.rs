@@ -6,7 +6,8 @@ use crate::lane::Lane;
 
 /// Parameters of τ⁻(τ⁺) \[K2\] \[K3\] \[K5\].
 ///
-/// With e = τ⁺ − ½: τ⁻ = ½ + max(Λ · min(1/e, e/e₀²), θ), e₀ = `lowered_below`.
+/// With e = τ⁺ − ½: τ⁻ = ½ + max(Λ · min(1/e, e/e₀²), θ), e₀ = `lowered_below`; with `calm`, where e > ½, θ min(1, |u|/u_c)
+/// stands for θ.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OddRate {
     /// Λ = (τ⁺ − ½)(τ⁻ − ½); 3/16 puts half-way walls exactly half-way.
@@ -15,6 +16,9 @@ pub struct OddRate {
     pub floor: f64,
     /// e₀: below this τ⁺ − ½ the product Λ is given up for stability \[K5\]; 0 keeps it always.
     pub lowered_below: f64,
+    /// u_c, cells per step: what is stiff and slower than this loses the floor in proportion to its speed; `None`: nothing does.
+    #[serde(default)]
+    pub calm: Option<f64>,
 }
 
 impl Default for OddRate {
@@ -25,7 +29,7 @@ impl Default for OddRate {
 
 impl OddRate {
     /// The default parameters \[K3\] \[K5\].
-    pub const STANDARD: Self = Self { magic: 3.0 / 16.0, floor: 0.05, lowered_below: 0.05 };
+    pub const STANDARD: Self = Self { magic: 3.0 / 16.0, floor: 0.05, lowered_below: 0.05, calm: None };
 
     /// For the central-moment operator among moving grains.
     ///
@@ -38,10 +42,19 @@ impl OddRate {
     /// Claim `fast-sphere-is-stable`.
     pub const AMONG_GRAINS: Self = Self { lowered_below: 0.15, ..Self::STANDARD };
 
+    /// u_c = 4θF: twice the speed, cells per step, at which a rigid solid under the force F slips along a half-way wall \[K3\].
+    ///
+    /// Set after seeing: a block on a slope comes to rest with it and with more, and goes on creeping at its toe with half of it;
+    /// the waves that it leaves are as large as it is.
+    #[must_use]
+    pub const fn calm_speed(&self, force: f64) -> f64 {
+        4.0 * self.floor * force
+    }
+
     /// Λ fixed at all τ⁺, no floor: the textbook two-relaxation-time operator.
     #[must_use]
     pub const fn fixed(magic: f64) -> Self {
-        Self { magic, floor: 0.0, lowered_below: 0.0 }
+        Self { magic, floor: 0.0, lowered_below: 0.0, calm: None }
     }
 
     /// τ⁻ − ½ that Λ asks for, before the floor \[K5\].
@@ -62,16 +75,40 @@ impl OddRate {
         }
     }
 
-    /// ω⁻ = 1 / (½ + max(excess, θ)).
+    /// ω⁻ = 1 / (½ + max(excess, θ(u²))).
     ///
+    /// # Arguments
+    /// `omega`: ω⁺. `square`: u² of the cell, cells² per step².
     /// # Source
     /// docs/method.md \[K2\], \[K3\].
     /// # Verified by
-    /// Claim `poiseuille-newtonian-magic`.
+    /// Claims `poiseuille-newtonian-magic`, `rest-below-yield`.
     #[inline(always)]
-    pub fn odd_omega<L: Lane>(&self, omega: L) -> L {
-        let excess = L::larger(self.excess(omega), L::splat(self.floor));
+    pub fn odd_omega<L: Lane>(&self, omega: L, square: L) -> L {
+        let excess = L::larger(self.excess(omega), self.floor_at(omega, square));
         L::one() / (L::splat(0.5) + excess)
+    }
+
+    /// θ min(1, |u|/u_c) where τ⁺ > 1, θ elsewhere.
+    ///
+    /// The floor damps the waves of an unyielded solid; it also lets the stress diffuse, and strain that makes up for what a
+    /// stress at rest loses by that is creep of up to 2θF per step, for ever. Creep slower than u_c can not sustain the floor
+    /// that it needs ([`Self::calm_speed`]).
+    ///
+    /// # Source
+    /// docs/method.md \[K3\], ours.
+    /// # Verified by
+    /// Claim `rest-below-yield`; test `exact_floor_of_calm_material`.
+    #[inline(always)]
+    fn floor_at<L: Lane>(&self, omega: L, square: L) -> L {
+        let floor = L::splat(self.floor);
+        match self.calm {
+            Some(calm) if calm > 0.0 => {
+                let share = L::smaller(L::splat(1.0 / calm) * square.sqrt(), L::one());
+                L::select(omega.less(L::one()), floor * share, floor)
+            }
+            Some(_) | None => floor,
+        }
     }
 }
 
@@ -81,16 +118,27 @@ mod tests {
 
     #[test]
     fn limit_unyielded_cell_takes_the_floor() {
-        let odd = OddRate { magic: 3.0 / 16.0, floor: 0.05, lowered_below: 0.05 };
-        assert_eq!(odd.odd_omega(0.0_f64), 1.0 / 0.55);
-        assert_eq!(OddRate::fixed(0.1875).odd_omega(0.0_f64), 2.0);
+        let odd = OddRate::STANDARD;
+        assert_eq!(odd.odd_omega(0.0_f64, 0.0), 1.0 / 0.55);
+        assert_eq!(OddRate::fixed(0.1875).odd_omega(0.0_f64, 0.0), 2.0);
+    }
+
+    #[test]
+    fn exact_floor_of_calm_material() {
+        let odd = OddRate { calm: Some(0.5), ..OddRate::STANDARD };
+        // Rigid: at rest, at half of u_c, faster.
+        assert_eq!(odd.odd_omega(0.0, 0.0), 2.0);
+        assert_eq!(odd.odd_omega(0.0, 0.0625), 1.0 / (0.5 + 0.5 * 0.05));
+        assert_eq!(odd.odd_omega(0.0, 1.0), 1.0 / 0.55);
+        // Thin fluid keeps its floor.
+        assert_eq!(odd.odd_omega(2.0, 0.0), 1.0 / 0.55);
     }
 
     #[test]
     fn exact_magic_product_above_the_threshold() {
         let odd = OddRate::default();
         for tau in [0.56, 0.8, 1.0, 2.0] {
-            let tau_minus = 1.0 / odd.odd_omega(1.0 / tau);
+            let tau_minus = 1.0 / odd.odd_omega(1.0 / tau, 0.0);
             let product = (tau - 0.5) * (tau_minus - 0.5);
             // Five roundings of numbers of order one, divided by the smallest factor 0.06.
             assert!((product - 0.1875).abs() < 5.0 * f64::EPSILON / 0.06, "{tau}: {product}");

@@ -42,7 +42,7 @@ impl Collision for Regularised {
 
     /// Third moments carry no memory: ω⁻ = 1.
     #[inline(always)]
-    fn odd_omega<L: Lane>(&self, _omega: L) -> L {
+    fn odd_omega<L: Lane>(&self, _omega: L, _square: L) -> L {
         L::one()
     }
 }

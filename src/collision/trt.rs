@@ -25,7 +25,7 @@ impl Collision for Trt {
     #[inline(always)]
     fn collide<L: Lane>(&self, h: &[L; Q], m: &Moments<L>, omega: L) -> [L; Q] {
         let half = L::splat(0.5);
-        let odd_omega = self.odd_omega(omega);
+        let odd_omega = self.odd_omega(omega, m.square());
         let heq = equilibrium(m.d_rho, m.rho, &m.u);
         let even = even_source(&m.u, &m.force);
         let odd = odd_source(&m.force);
@@ -52,8 +52,8 @@ impl Collision for Trt {
     }
 
     #[inline(always)]
-    fn odd_omega<L: Lane>(&self, omega: L) -> L {
-        self.odd.odd_omega(omega)
+    fn odd_omega<L: Lane>(&self, omega: L, square: L) -> L {
+        self.odd.odd_omega(omega, square)
     }
 
     #[inline(always)]

@@ -19,6 +19,15 @@ pub struct Moments<L> {
     pub q: [L; 6],
 }
 
+impl<L: Lane> Moments<L> {
+    /// u².
+    #[inline(always)]
+    #[must_use]
+    pub fn square(&self) -> L {
+        (self.u[0] * self.u[0] + self.u[1] * self.u[1]) + self.u[2] * self.u[2]
+    }
+}
+
 /// δρ = Σ h_i \[L4\].
 ///
 /// # Exactness

@@ -41,7 +41,7 @@ pub(crate) fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
     setup.solid_motion = solid_motion(scene, units);
     setup.courses = courses(scene, units);
     setup.yielding = yield_treatment(&scene.numerics.yield_treatment, units);
-    setup.collision = collision(facts);
+    setup.collision = calmed(facts, &setup);
     setup.wall_rule = match scene.numerics.wall_rule {
         WallChoice::HalfWay => WallRule::HalfWay,
         WallChoice::ViscosityIndependent => WallRule::ViscosityIndependent,
@@ -154,8 +154,28 @@ pub(crate) fn collision(facts: &Facts) -> CollisionChoice {
         magic: choice.magic.unwrap_or(default.magic),
         floor: choice.floor.unwrap_or(default.floor),
         lowered_below: choice.lowered_below.unwrap_or(default.lowered_below),
+        calm: None,
     };
     operator.with(odd)
+}
+
+/// The collision operator with the floor of τ⁻ that fades at rest \[K3\], where mud may creep: below a free surface that is no
+/// film without ends. A film has a straight profile of stress, which does not creep, and nothing but the floor damps its
+/// waves. A floor that is asked for holds at any speed.
+fn calmed(facts: &Facts, setup: &Setup) -> CollisionChoice {
+    let chosen = collision(facts);
+    let asked = facts.scene.numerics.collision.floor.is_some();
+    let endless =
+        setup.periodic_axes().iter().filter(|&&periodic| periodic).count() > 1 && setup.solids.is_empty();
+    match chosen {
+        CollisionChoice::CentralMoment(odd)
+            if facts.any_plug() && setup.free_surface.is_some() && !asked && !endless =>
+        {
+            let calm = Some(odd.calm_speed(setup.force.largest()));
+            CollisionChoice::CentralMoment(OddRate { calm, ..odd })
+        }
+        _ => chosen,
+    }
 }
 
 /// The operator that is asked for; by default the one that suits the fluid.

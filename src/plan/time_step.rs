@@ -165,6 +165,12 @@ pub(crate) fn with_tau(facts: &Facts, scales: &Scales, pool: Option<&Pool>, tau:
     Some(free(facts, scales, pool, tau, viscosity).0)
 }
 
+/// \[F7\]: 3 f H Δt²/(ρ Δx²) along the walled axis where it is largest, and the Δt with which it is 2 %.
+pub(super) fn compression(facts: &Facts, pool: Option<&Pool>, dt: f64) -> [f64; 2] {
+    let step = compression_step(facts, pool);
+    [COMPRESSION * (dt / step) * (dt / step), step]
+}
+
 /// \[F7\]: the largest Δt with 3 f H Δt²/(ρ Δx²) ≤ 0.02 along every walled axis; H is the
 /// edge of the box, or the longest stretch of fluid below a free surface.
 fn compression_step(facts: &Facts, pool: Option<&Pool>) -> f64 {

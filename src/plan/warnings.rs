@@ -2,6 +2,7 @@
 
 use super::figures::Basis;
 use super::numbers::Numbers;
+use super::time_step::compression;
 use super::wall_error::{ERROR_MAX, FEW_CELLS, PUSH_MAX, THIN_LAYER};
 use super::warning::{Warning, holding};
 use crate::rheology::Law;
@@ -10,6 +11,9 @@ use crate::setup::{Precision, YieldTreatment};
 
 /// Excess mass worth a warning: 0.4 % of the volume moves the front of a long thin flow by as much.
 const LEAST_EXCESS: f64 = 4e-3;
+
+/// Compression worth a warning: twice what a chosen step has.
+const COMPRESSION_MAX: f64 = 0.04;
 
 /// Difference of the volume in the cells from that drawn that is worth a warning: it moves a front by as much.
 const OTHER_VOLUME: f64 = 1e-2;
@@ -22,6 +26,7 @@ pub(super) fn warnings(n: &Numbers, basis: &Basis) -> Vec<Warning> {
     all.extend(of_the_scheme(n, basis));
     all.extend(of_the_surface(n));
     all.extend(of_the_weight(basis));
+    all.extend(of_the_step(basis));
     all
 }
 
@@ -96,4 +101,10 @@ fn of_the_weight(basis: &Basis) -> Option<Warning> {
     let weight = basis.facts.forces.extremes[0][pool.up.index()].abs();
     let share = 1.5 * basis.units.force_to_lattice(weight) * basis.units.length_to_lattice(pool.depth);
     (hydrostatic && share > LEAST_EXCESS).then_some(Warning::Compressed { share })
+}
+
+/// A step with which the fluid is compressed by its weight \[F7\].
+fn of_the_step(basis: &Basis) -> Option<Warning> {
+    let [share, time_step_s] = compression(basis.facts, basis.pool.as_ref(), basis.units.dt_s);
+    (share > COMPRESSION_MAX).then_some(Warning::CompressedByStep { share, time_step_s })
 }

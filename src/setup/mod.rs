@@ -8,11 +8,13 @@ use std::sync::Arc;
 
 pub mod course;
 pub mod cuts;
+mod force;
 pub(crate) mod guard;
 pub(crate) mod suspension;
 
 pub use course::{Course, Courses};
 pub use cuts::CutCell;
+pub use force::BodyForce;
 pub use suspension::Suspension;
 
 use crate::collision::CollisionChoice;
@@ -123,33 +125,6 @@ impl Precision {
             Self::Single | Self::SingleStorage => 0.5 / 8_388_608.0,
         }
     }
-}
-
-/// Body force per volume (lattice units); enters as a constant force, not ρg \[L5\].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum BodyForce {
-    /// The same at all times.
-    Constant([f64; 3]),
-    /// `mean + amplitude · cos(frequency · t + phase)`, t in steps, frequency in radians per step.
-    Oscillating {
-        /// Mean force.
-        mean: [f64; 3],
-        /// Amplitude.
-        amplitude: [f64; 3],
-        /// Angular frequency, radians per step.
-        frequency: f64,
-        /// Phase at step 0, radians.
-        phase: f64,
-    },
-    /// `before` until step `at`, `after` from that step on.
-    Stepped {
-        /// Until the step `at`.
-        before: [f64; 3],
-        /// From the step `at` on.
-        after: [f64; 3],
-        /// Step of the change.
-        at: u64,
-    },
 }
 
 /// One point of an initial flow, lattice units.
@@ -361,26 +336,5 @@ impl Setup {
     #[must_use]
     pub fn law(&self, cell: usize) -> Law {
         self.fluids[self.fluid_of_cell.get(cell).map_or(0, |&f| usize::from(f))]
-    }
-}
-
-impl BodyForce {
-    /// Force per volume at a step, lattice units.
-    #[must_use]
-    pub fn at(&self, step: u64) -> [f64; 3] {
-        match *self {
-            Self::Constant(force) => force,
-            Self::Oscillating { mean, amplitude, frequency, phase } => {
-                let swing = libm::cos(frequency * step as f64 + phase);
-                std::array::from_fn(|a| mean[a] + amplitude[a] * swing)
-            }
-            Self::Stepped { before, after, at } => {
-                if step < at {
-                    before
-                } else {
-                    after
-                }
-            }
-        }
     }
 }

@@ -35,7 +35,7 @@ pub(crate) fn state<P: Physics>(physics: &P, h: &Cell, force: &[f64; 3], fluid: 
 /// The guard: density and velocity are finite, density positive, speed within the limit.
 #[inline(always)]
 pub(crate) fn runaway(m: &Moments<f64>, limit: f64) -> Option<Runaway> {
-    let speed2 = (m.u[0] * m.u[0] + m.u[1] * m.u[1]) + m.u[2] * m.u[2];
+    let speed2 = m.square();
     if speed2 <= limit * limit && m.rho > 0.0 {
         return None;
     }
@@ -91,7 +91,7 @@ pub(crate) fn wall_correction<L: Lane, P: Physics>(
     situation: &Situation<L>,
 ) -> [L; Q] {
     let rho = state.m.rho;
-    let odd_omega = physics.odd_omega(state.omega);
+    let odd_omega = physics.odd_omega(state.omega, state.m.square());
     let local = local_curvature(state.omega, odd_omega);
     let mut excess = [L::zero(); Q];
     if situation.sourced {
@@ -150,10 +150,11 @@ fn slip_velocity<L: Lane, P: Physics>(
         traction: size,
         force: along(flat.tangential(&situation.residual)),
         floor: L::splat(3.0) / rho * along(flat.first_moment(excess)),
-        local: local_curvature(omega, physics.odd_omega(omega)),
+        local: local_curvature(omega, physics.odd_omega(omega, state.m.square())),
         rho,
         omega,
         magnitude: physics.stress_magnitude(&state.m),
+        squares: [state.m.square(), drag[0] * drag[0] + drag[1] * drag[1]],
     };
     let slip = physics.slip(situation.fluid, &wall);
     flat.vector(&[e[0] * slip, e[1] * slip])
@@ -168,7 +169,7 @@ pub(crate) fn add_stress_source<L: Lane, P: Physics>(
     residual: &[L; 3],
 ) {
     let wanted = physics.wanted_odd_excess(state.omega);
-    let odd_omega = physics.odd_omega(state.omega);
+    let odd_omega = physics.odd_omega(state.omega, state.m.square());
     add_third(post, &stress_source(residual, &deviator(&state.m.q), wanted, odd_omega));
 }
 

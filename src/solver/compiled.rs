@@ -14,10 +14,17 @@ pub trait Compiled {
     fn with<P: Physics>(self, physics: P) -> Self::Result;
 }
 
+/// In the unit tests of this crate all share one loop: the bits are the same, and the others would be compiled a second time for
+/// them alone, for minutes.
+const SHARED_ONLY: bool = cfg!(test);
+
 /// A loop of its own for each of the laws that most scenes have, with this operator; the others, and several
 /// fluids, share one.
 pub(crate) fn with_own_loop<C: Collision, W: Compiled>(setup: &Setup, collision: C, work: W) -> W::Result {
     let &[law] = setup.fluids.as_slice() else { return with_shared_loop(setup, work) };
+    if SHARED_ONLY {
+        return with_shared_loop(setup, work);
+    }
     match law {
         Law::Newtonian { mu } => work.with(standard(setup, Newtonian { mu }, collision)),
         Law::Bingham { sigma0, mu } => work.with(standard(setup, Bingham { sigma0, mu }, collision)),
@@ -34,6 +41,9 @@ pub(crate) fn with_newtonian_loop<C: Collision, W: Compiled>(
     collision: C,
     work: W,
 ) -> W::Result {
+    if SHARED_ONLY {
+        return with_shared_loop(setup, work);
+    }
     match *setup.fluids.as_slice() {
         [Law::Newtonian { mu }] => work.with(standard(setup, Newtonian { mu }, collision)),
         [] | [_] | [_, _, ..] => with_shared_loop(setup, work),

@@ -39,8 +39,8 @@ pub trait Physics: Clone + Send + Sync + 'static {
     /// ω⁺ of a cell holding fluid number `fluid` \[Y3\] \[Y4\].
     fn omega<L: Lane>(&self, fluid: u8, rho: L, q: L, previous: L) -> L;
 
-    /// ω⁻ that goes with ω⁺ \[K2\] \[K3\].
-    fn odd_omega<L: Lane>(&self, omega: L) -> L;
+    /// ω⁻ that goes with ω⁺ in a cell of the squared velocity `square` \[K2\] \[K3\].
+    fn odd_omega<L: Lane>(&self, omega: L, square: L) -> L;
 
     /// τ⁻ − ½ that Λ asks for before the floor \[K6\]; the one in force without a floor.
     fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L;
@@ -114,14 +114,14 @@ impl<R: Rheology, C: Collision> Physics for Standard<R, C> {
             #[inline(always)]
             |sigma| relaxation::flow(law, self.treatment, slow, wall.omega, sigma),
             #[inline(always)]
-            |omega| L::one() / self.collision.odd_omega(omega) - L::splat(0.5),
+            |omega, square| L::one() / self.collision.odd_omega(omega, square) - L::splat(0.5),
         );
         wall_law::slip(wall, &fluid)
     }
 
     #[inline(always)]
-    fn odd_omega<L: Lane>(&self, omega: L) -> L {
-        self.collision.odd_omega(omega)
+    fn odd_omega<L: Lane>(&self, omega: L, square: L) -> L {
+        self.collision.odd_omega(omega, square)
     }
 
     #[inline(always)]

@@ -11,8 +11,8 @@ use lahar::setup::YieldTreatment;
 pub const OPERATORS: [CollisionChoice; 6] = [
     CollisionChoice::Bgk,
     CollisionChoice::Trt(OddRate::fixed(3.0 / 16.0)),
-    CollisionChoice::Trt(OddRate { magic: 0.25, floor: 0.05, lowered_below: 0.05 }),
-    CollisionChoice::CentralMoment(OddRate { magic: 3.0 / 16.0, floor: 0.05, lowered_below: 0.05 }),
+    CollisionChoice::Trt(OddRate { magic: 0.25, ..OddRate::STANDARD }),
+    CollisionChoice::CentralMoment(OddRate::STANDARD),
     CollisionChoice::CentralMoment(OddRate::fixed(3.0 / 16.0)),
     CollisionChoice::Regularised,
 ];

@@ -62,6 +62,8 @@ pub enum Mistake {
     VoidsKept,
     /// \[F10\] left out.
     WallsMetAtOnce,
+    /// The floor of τ⁻ at rest, too \[K3\].
+    FloorAtRest,
     /// 000: excess without a rule.
     ExcessDropped,
     /// The force source without 1 − ω/2.
@@ -93,6 +95,11 @@ impl Backend for Mistaken {
             }
         }
         let laws: Vec<Prepared> = setup.fluids.iter().map(Law::prepare).collect();
+        if self.0 == Mistake::FloorAtRest
+            && let CollisionChoice::CentralMoment(odd) = &mut setup.collision
+        {
+            odd.calm = None;
+        }
         let right = Standard::new(laws, setup.yielding, setup.collision);
         let physics = Wrong { right, mistake: self.0 };
         // A wrong surface need not keep its mass: the claim that must catch it measures by how much.
@@ -153,8 +160,8 @@ impl Physics for Wrong {
         self.right.omega(fluid, rho, q, previous)
     }
 
-    fn odd_omega<L: Lane>(&self, omega: L) -> L {
-        self.right.odd_omega(omega)
+    fn odd_omega<L: Lane>(&self, omega: L, square: L) -> L {
+        self.right.odd_omega(omega, square)
     }
 
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
@@ -174,7 +181,7 @@ impl Physics for Wrong {
                 let half = L::splat(0.5) * omega;
                 std::array::from_fn(|i| post[i] + half * (even[i] + odd[i]))
             }
-            Mistake::SwappedRates => self.right.collide(h, m, self.odd_omega(omega)),
+            Mistake::SwappedRates => self.right.collide(h, m, self.odd_omega(omega, m.square())),
             _ => self.right.collide(h, m, omega),
         }
     }

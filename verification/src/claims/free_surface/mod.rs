@@ -11,6 +11,7 @@ mod impact;
 mod loads;
 mod mutants;
 mod pool;
+mod rest;
 pub(super) mod support;
 mod symmetry;
 mod tilted;
@@ -37,6 +38,7 @@ pub static STUDY: Study = Study {
         heap::HEAP,
         heap::ADVANCE,
         heap::QUIET,
+        rest::REST,
         drop::FULL,
         drop::INERTIA,
         drop::BY_FILL,
@@ -71,6 +73,7 @@ pub static STUDY: Study = Study {
         mutants::LATERAL_STRESS,
         mutants::VOIDS_KEPT,
         mutants::WALLS_MET_AT_ONCE,
+        mutants::FLOOR_AT_REST,
     ],
     limits: &[
         "Waves on a film level at rates that depend on where the surface lies within a cell: +2 to −4 % on 8 cells.",

@@ -92,3 +92,13 @@ pub const WALLS_MET_AT_ONCE: Mutant = Mutant {
     rung: Some(20.0),
     subject: Subject::Backend(|| Box::new(Mistaken(Mistake::WallsMetAtOnce))),
 };
+
+/// The floor of τ⁻ at any speed.
+pub const FLOOR_AT_REST: Mutant = Mutant {
+    id: "floor-at-rest",
+    erratum: "K3",
+    description: "The floor of τ⁻ holds at rest, too: stress diffuses, and what is rigid creeps to make up for it.",
+    caught_by: "rest-below-yield",
+    rung: Some(10.0),
+    subject: Subject::Backend(|| Box::new(Mistaken(Mistake::FloorAtRest))),
+};

@@ -13,7 +13,7 @@ use lahar::solver::run::Backend;
 pub const OPERATORS: [CollisionChoice; 4] = [
     CollisionChoice::Bgk,
     CollisionChoice::Trt(OddRate::fixed(3.0 / 16.0)),
-    CollisionChoice::CentralMoment(OddRate { magic: 3.0 / 16.0, floor: 0.05, lowered_below: 0.05 }),
+    CollisionChoice::CentralMoment(OddRate::STANDARD),
     CollisionChoice::Regularised,
 ];
 

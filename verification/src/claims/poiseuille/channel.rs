@@ -300,7 +300,7 @@ fn odd_excess(collision: &CollisionChoice, even: f64) -> f64 {
         CollisionChoice::Bgk => even,
         CollisionChoice::Regularised => 0.5,
         CollisionChoice::Trt(odd) | CollisionChoice::CentralMoment(odd) => {
-            let OddRate { magic, floor, lowered_below } = *odd;
+            let OddRate { magic, floor, lowered_below, .. } = *odd;
             let wanted = magic / even;
             let wanted = if lowered_below > 0.0 {
                 wanted.min(magic * even / (lowered_below * lowered_below))

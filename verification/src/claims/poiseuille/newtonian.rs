@@ -231,7 +231,7 @@ pub const B3_LARGE_TAU: Claim = Claim {
     },
     kind: Kind::Verification,
     measure: |backend, tau| {
-        let odd = OddRate { magic: 0.0, floor: 0.05, lowered_below: 0.0 };
+        let odd = OddRate { magic: 0.0, lowered_below: 0.0, ..OddRate::STANDARD };
         let column =
             Column::newtonian(32, tau, 1e-3, CollisionChoice::Trt(odd), WallRule::ViscosityIndependent);
         let half_way = Column { wall: WallRule::HalfWay, ..column };

@@ -20,7 +20,7 @@ impl Collision for Swapped {
         /// The odd rate of the swapped operator is the even rate of the right one: τ⁻ = τ⁺ of the
         /// mutant, hence Λ = (τ⁺ − ½)(τ⁻ − ½) is unchanged by the exchange.
         fn exchanged<L: Lane>(odd: OddRate, omega: L) -> L {
-            odd.odd_omega(omega)
+            odd.odd_omega(omega, L::zero())
         }
         Trt { odd: self.0 }.collide(h, m, exchanged(self.0, omega))
     }
@@ -30,7 +30,7 @@ impl Collision for Swapped {
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q] {
         Trt { odd: self.0 }.odd_departure(h, m)
     }
-    fn odd_omega<L: Lane>(&self, omega: L) -> L {
+    fn odd_omega<L: Lane>(&self, omega: L, _square: L) -> L {
         omega
     }
 }

@@ -39,7 +39,7 @@ pub fn starting_profile(
 
 /// The default collision with another floor θ.
 pub const fn central(floor: f64) -> CollisionChoice {
-    CollisionChoice::CentralMoment(OddRate { magic: 3.0 / 16.0, floor, lowered_below: 0.05 })
+    CollisionChoice::CentralMoment(OddRate { floor, ..OddRate::STANDARD })
 }
 
 /// Largest |x|; NaN if there is one.

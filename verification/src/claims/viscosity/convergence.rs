@@ -16,7 +16,7 @@ const TAU: f64 = 0.8;
 /// The operators by name, with the relaxation times they take at an even one.
 pub fn schemes(tau: f64) -> [(&'static str, CollisionChoice, Relaxation); 4] {
     let odd = OddRate::default();
-    let relaxation = Relaxation { even: tau, odd: 1.0 / odd.odd_omega(1.0 / tau) };
+    let relaxation = Relaxation { even: tau, odd: 1.0 / odd.odd_omega(1.0 / tau, 0.0) };
     [
         ("BGK", CollisionChoice::Bgk, Relaxation::bgk(tau)),
         ("TRT", CollisionChoice::Trt(odd), relaxation),

@@ -126,7 +126,7 @@ pub const DAMPING: Claim = Claim {
 fn measure_unit_trace(backend: &dyn Backend, n: f64) -> Result<Sample, VerifyError> {
     let odd = OddRate::default();
     let tau = 0.8;
-    let relaxation = Relaxation { even: tau, odd: 1.0 / odd.odd_omega(1.0 / tau) };
+    let relaxation = Relaxation { even: tau, odd: 1.0 / odd.odd_omega(1.0 / tau, 0.0) };
     let k = core::f64::consts::TAU / n;
     let predicted = sound_decay_rate(relaxation.viscosity(), 1.0 / 9.0, k);
     let (_, central) = speed_and_decay(backend, CollisionChoice::CentralMoment(odd), relaxation, n as usize)?;
@@ -172,7 +172,7 @@ pub const UNIT_TRACE: Claim = Claim {
 fn measure_speed(backend: &dyn Backend, n: f64) -> Result<Sample, VerifyError> {
     let odd = OddRate::default();
     let tau = 0.8;
-    let tau_odd = 1.0 / odd.odd_omega(1.0 / tau);
+    let tau_odd = 1.0 / odd.odd_omega(1.0 / tau, 0.0);
     let mut worst: Option<Sample> = None;
     for (collision, odd_time) in [
         (CollisionChoice::Bgk, tau),
