@@ -19,8 +19,8 @@ use crate::study;
 /// Mutants that one worker is given: reading the corpus takes as long as some of them.
 const PORTION: u64 = 100;
 /// Address space of a worker, bytes: what a plan says to need more is refused by the plan, and what a reader takes beyond it ends
-/// the worker.
-const MEMORY: u64 = 3 << 30;
+/// the worker. Boxes of ten million cells, which take a plan some seconds each when nothing is optimised, need more.
+const MEMORY: u64 = 1 << 30;
 
 /// Puts mutants of scenes, meshes, tables, series and checkpoints through their readers, `plan` and `run`.
 #[derive(Parser, Debug, Clone)]
