@@ -190,11 +190,7 @@ fn survives(name: &str, text: &str, backend: &str, every: &str, seed: u64) {
         }
     }
     assert!(kills > 0, "{name}: it was never killed");
-    let (a, b) = (content(&straight), content(&killed));
-    assert_eq!(Vec::from_iter(a.keys()), Vec::from_iter(b.keys()), "{name}");
-    for (file, bytes) in &a {
-        assert!(bytes == &b[file], "{name} with the {backend} backend: {file} differs");
-    }
+    same(&format!("{name} with the {backend} backend"), &content(&straight), &content(&killed));
 }
 
 #[test]
@@ -214,6 +210,69 @@ fn grains_go_on_bit_for_bit() {
 fn grains_in_a_fluid_go_on_bit_for_bit() {
     survives("both", &grains_in_dam(), "fast", "3steps", 6);
     survives("both", &grains_in_dam(), "plain", "3steps", 7);
+}
+
+/// Kills a run as often as it takes to have killed it `kills` times, at moments that know nothing of its checkpoints: some before the
+/// first one, some while one is written. A run that comes to its end is compared, and the next one starts in a new folder.
+fn survives_many(name: &str, text: &str, backend: &str, every: &str, kills: u32) {
+    let path = scene(&format!("{name}_{backend}_{kills}_kills"), text);
+    let straight = path.with_file_name("straight");
+    let clock = Instant::now();
+    let output = run(&path, &["--out", &straight.to_string_lossy(), "--backend", backend, "--threads", "1"]);
+    // A few kills in the time of a run: it gets on between them even where checkpoints take most of it.
+    let longest = clock.elapsed().mul_f64(0.5);
+    assert_eq!(output.status.code(), Some(0), "{name}: {}", message(&output));
+    let straight = content(&straight);
+    // Knuth's generator, as above.
+    let mut random = u64::from(kills);
+    let (mut killed, mut ended, mut before_any, mut resumed) = (0, 0, 0, 0);
+    while killed < kills || ended == 0 {
+        let out = path.with_file_name(format!("killed_{ended}"));
+        let out_name = out.to_string_lossy();
+        let goes_on = written(&out).is_some();
+        let way = if goes_on { ["--resume", &out_name] } else { ["--out", &out_name] };
+        let threads = ["1", "2"][killed as usize % 2];
+        let more = ["--checkpoint-every", every, "--backend", backend, "--threads", threads];
+        let mut child = command(&path, &[&way[..], &more[..]].concat())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("it starts");
+        resumed += u32::from(goes_on);
+        if killed < kills {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            std::thread::sleep(longest.mul_f64((random >> 33) as f64 / f64::from(1_u32 << 31)));
+            let _ = child.kill();
+        }
+        let output = child.wait_with_output().expect("an end");
+        if let Some(code) = output.status.code() {
+            assert_eq!(code, 0, "{name} after {killed} kills: {}", message(&output));
+            same(&format!("{name} after {killed} kills"), &straight, &content(&out));
+            ended += 1;
+        } else {
+            killed += 1;
+            before_any += u32::from(written(&out).is_none());
+        }
+    }
+    println!(
+        "{name}, {backend}: {killed} kills, {before_any} before a checkpoint, {resumed} resumed, {ended} runs with equal bits"
+    );
+    assert!(resumed > kills / 4, "{name}: few of the kills came after a checkpoint");
+}
+
+fn same(name: &str, a: &BTreeMap<String, Vec<u8>>, b: &BTreeMap<String, Vec<u8>>) {
+    assert_eq!(Vec::from_iter(a.keys()), Vec::from_iter(b.keys()), "{name}");
+    for (file, bytes) in a {
+        assert!(bytes == &b[file], "{name}: {file} differs");
+    }
+}
+
+#[test]
+#[ignore = "minutes: `cargo test --release --test checkpoints -- --ignored --nocapture`"]
+fn fifty_kills_of_each_kind_leave_equal_bits() {
+    survives_many("dam", DAM, "fast", "2steps", 50);
+    survives_many("dam", DAM, "plain", "2steps", 50);
+    survives_many("both", &grains_in_dam(), "fast", "3steps", 50);
+    survives_many("grains", GRAINS, "fast", "50steps", 50);
 }
 
 /// A run that was interrupted, and its folder.

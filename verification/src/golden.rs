@@ -17,13 +17,17 @@ use super::mutant::MutantRecord;
 use super::record::Record;
 use lahar::output::{OutputError, atomic};
 
+pub mod age;
 mod compare;
 mod evaluated;
+mod log;
 mod place;
+pub mod seals;
 
 pub use compare::{Agreement, Difference, compare, compare_exhibits, compare_mutants};
 pub use evaluated::{Evaluation, Evaluations};
 pub use place::{circumstances, package_root, revision, today};
+pub use seals::{Breach, Seal, Seals};
 
 /// Why golden files could not be used.
 #[derive(Debug, thiserror::Error)]
@@ -70,6 +74,19 @@ pub enum Shelf {
     Mutants,
 }
 
+impl Shelf {
+    /// Its folder below `golden`.
+    #[must_use]
+    pub fn folder(self) -> &'static str {
+        match self {
+            Self::Records => "records",
+            Self::Exhibits => "exhibits",
+            Self::Measured => "measured",
+            Self::Mutants => "mutants",
+        }
+    }
+}
+
 impl Golden {
     /// The folder `golden` of a package root.
     #[must_use]
@@ -104,13 +121,7 @@ impl Golden {
     /// The file of an id.
     #[must_use]
     pub fn path(&self, shelf: Shelf, id: &str) -> PathBuf {
-        let folder = match shelf {
-            Shelf::Records => "records",
-            Shelf::Exhibits => "exhibits",
-            Shelf::Measured => "measured",
-            Shelf::Mutants => "mutants",
-        };
-        self.root.join(folder).join(format!("{id}.json"))
+        self.root.join(shelf.folder()).join(format!("{id}.json"))
     }
 
     /// The golden record of a claim, if there is one.

@@ -13,6 +13,7 @@ pub mod exact;
 pub mod exhibit;
 pub mod figures;
 pub mod format;
+pub mod fuzz;
 pub mod golden;
 pub mod ladder;
 pub mod mutant;
@@ -22,6 +23,7 @@ pub mod reference_values;
 pub mod report;
 pub mod selection;
 pub mod study;
+pub mod verify;
 
 pub use selection::{Selection, SelectionError};
 

@@ -131,7 +131,7 @@ fn ids(study: &Study) -> impl Iterator<Item = (&'static str, &'static str, &'sta
 }
 
 /// Computes, prints, writes, and compares or blesses; true if all is well.
-fn execute(study: &Study, backend: &dyn Backend, options: &Options) -> bool {
+pub(crate) fn execute(study: &Study, backend: &dyn Backend, options: &Options) -> bool {
     let results = Results::compute(study, backend, options);
     print!("{}", table::render(study, &results));
     let root = package_root();

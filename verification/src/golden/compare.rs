@@ -32,6 +32,8 @@ pub struct Difference {
     pub now: String,
     /// |now − golden| / |golden|; NaN if not two numbers.
     pub relative: f64,
+    /// |now − golden| over the size of the quantity, that of the flow and not of a residual; NaN if not two numbers.
+    pub scaled: f64,
 }
 
 impl fmt::Display for Difference {
@@ -99,7 +101,21 @@ pub fn compare_exhibits(now: &ExhibitData, golden: &ExhibitData, agreement: Agre
         (Ok(a), Ok(b)) => compare_values("", &a, &b, agreement, &mut all),
         _ => all.push(words("exhibit".to_owned(), "JSON", "not expressible as JSON")),
     }
+    for difference in &mut all {
+        if let Some(name) = cell(&difference.place, golden) {
+            difference.place = name;
+        }
+    }
     all
+}
+
+/// The name of an entry of a table, which is at a place like `tables.0.rows.3.4.number`.
+fn cell(place: &str, exhibit: &ExhibitData) -> Option<String> {
+    let parts: Vec<&str> = place.split('.').collect();
+    let ["tables", table, "rows", row, column, _] = parts[..] else { return None };
+    let table = exhibit.tables.get(table.parse::<usize>().ok()?)?;
+    let column = table.columns.get(column.parse::<usize>().ok()?)?;
+    Some(format!("{}, row {}, {column}", table.title, row.parse::<usize>().ok()? + 1))
 }
 
 /// Compares two mutants: whether they were caught, and the error measured.
@@ -156,12 +172,14 @@ fn compare_numbers(
             golden: format!("{golden:e}"),
             now: format!("{now:e}"),
             relative: (now - golden).abs() / golden.abs(),
+            scaled: (now - golden).abs() / scale,
         });
     }
 }
 
 fn words(place: String, golden: &str, now: &str) -> Difference {
-    Difference { place, golden: golden.to_owned(), now: now.to_owned(), relative: f64::NAN }
+    let (golden, now) = (golden.to_owned(), now.to_owned());
+    Difference { place, golden, now, relative: f64::NAN, scaled: f64::NAN }
 }
 
 fn brief(value: &Value) -> String {

@@ -1,13 +1,10 @@
 //! Compares the results of a study with the golden files, or makes them golden.
 
-use std::fmt::Write as _;
-
 use super::{Options, Results, Study};
 use crate::golden::{
     Difference, Evaluation, Golden, GoldenError, Shelf, compare, compare_exhibits, compare_mutants, merge,
-    revision, today, write,
+    write,
 };
-use lahar::output::atomic;
 
 /// What differs from the golden files, by id.
 fn differences(study: &Study, results: &Results, golden: &Golden) -> Result<Vec<Change>, GoldenError> {
@@ -47,25 +44,29 @@ impl Change {
     }
 
     /// The line of the log; `None` if nothing changed.
+    ///
+    /// The physical quantity comes first: what the claim compares with its reference, then its error, then all else, each by its
+    /// change over the size of the quantity. A residual of rounding, which may change by any factor, is not what changed.
     fn line(&self) -> Option<String> {
         let Some(differences) = &self.differences else { return Some(format!("- `{}`: new", self.id)) };
-        let worst = worst(differences.iter()).or(differences.first())?;
-        // A residual of rounding may change by any factor; what was computed is named beside it.
-        let computed = worst_computed(differences).filter(|d| *d != worst);
-        let computed = computed.map_or_else(String::new, |d| format!("; of what was computed, {d}"));
-        Some(format!("- `{}`: {} places, worst {worst}{computed}", self.id, differences.len()))
+        let ending = |what: &str| largest(differences.iter().filter(|d| d.place.ends_with(what)));
+        let first =
+            ending(", computed").or_else(|| ending(", error")).or_else(|| largest(differences.iter()));
+        let first = first.or(differences.first())?;
+        let size = if first.scaled <= ROUNDING { ", rounding" } else { "" };
+        let places = differences.len();
+        let others = if places == 1 { String::new() } else { format!("; {places} places in all") };
+        Some(format!("- `{}`: {first}{size}{others}", self.id))
     }
 }
 
-/// The largest relative change.
-fn worst<'a>(differences: impl Iterator<Item = &'a Difference>) -> Option<&'a Difference> {
-    let numbers = differences.filter(|d| d.relative.is_finite());
-    numbers.max_by(|a, b| a.relative.total_cmp(&b.relative))
-}
+/// Changes up to this, over the size of the quantity, are called rounding in the log: some thousand operations of 1.1e-16 each.
+const ROUNDING: f64 = 1e-12;
 
-/// The largest relative change of a number that a claim compares with its reference.
-fn worst_computed(differences: &[Difference]) -> Option<&Difference> {
-    worst(differences.iter().filter(|d| d.place.ends_with(", computed")))
+/// The largest change over the size of its quantity.
+fn largest<'a>(differences: impl Iterator<Item = &'a Difference>) -> Option<&'a Difference> {
+    let numbers = differences.filter(|d| d.scaled.is_finite());
+    numbers.max_by(|a, b| a.scaled.total_cmp(&b.scaled))
 }
 
 /// Compares; prints what differs and what is missing. True if nothing differs.
@@ -103,9 +104,11 @@ pub(super) fn bless(
         records.push((claim.id, merge(claim, record, old.as_ref(), study.agreement)?));
     }
     let mut evaluations = golden.evaluations()?;
+    let mut written = Vec::new();
     for (id, record) in records {
         write(&golden.path(Shelf::Records, id), &record)?;
         evaluations.0.insert(id.to_owned(), Evaluation::now(options.depth()));
+        written.push((Shelf::Records, id));
     }
     write(&golden.evaluated(), &evaluations)?;
     let mut grown = Vec::new();
@@ -119,40 +122,21 @@ pub(super) fn bless(
         if record.full || old.is_none_or(|old| !old.full) {
             let shelf = if exhibit.timed { Shelf::Measured } else { Shelf::Exhibits };
             write(&golden.path(shelf, exhibit.id), record)?;
+            written.push((shelf, exhibit.id));
         }
     }
     for (mutant, record) in &results.mutants {
         write(&golden.path(Shelf::Mutants, mutant.id), record)?;
+        written.push((Shelf::Mutants, mutant.id));
     }
+    let mut seals = golden.seals()?;
+    for (shelf, id) in written {
+        seals.seal(golden, &evaluations, shelf, id)?;
+    }
+    write(&golden.seals_file(), &seals)?;
     let lines: Vec<String> = changes.iter().filter_map(Change::line).chain(grown).collect();
-    log(study, golden, options, reason, &lines)?;
+    let full = if options.full { " --full" } else { "" };
+    golden.log_change(&format!("study-{}{full}", study.id), reason, &lines)?;
     println!("Blessed; {} of {} results new or changed.", lines.len(), changes.len());
     Ok(true)
-}
-
-fn log(
-    study: &Study,
-    golden: &Golden,
-    options: &Options,
-    reason: &str,
-    lines: &[String],
-) -> Result<(), GoldenError> {
-    let path = golden.log();
-    let head = "# Log of golden files\n\nEvery change of a golden record, with its reason; newest last.\n";
-    let mut text = match std::fs::read_to_string(&path) {
-        Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => head.to_owned(),
-        Err(source) => return Err(GoldenError::Read { path, source }),
-    };
-    let full = if options.full { " --full" } else { "" };
-    let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
-    let after = revision().map_or_else(String::new, |r| format!(", after revision {r}"));
-    let _ = write!(text, "\n## {}{after}: study-{}{full}\n\n{reason}\n\n", today(), study.id);
-    if lines.is_empty() {
-        text.push_str("- no number changed\n");
-    }
-    for line in lines {
-        let _ = writeln!(text, "{line}");
-    }
-    Ok(atomic::write(&path, text.as_bytes())?)
 }
