@@ -4,7 +4,7 @@
 use std::process::Command;
 
 /// Mutants that are read and planned, and those of them that are small are run: some seconds.
-const MUTANTS: u64 = 600;
+const MUTANTS: u64 = 200;
 
 #[test]
 fn mutants_are_refused_or_run() {
