@@ -103,7 +103,8 @@ fn state(out: &mut String, chapters: &[Chapter]) {
     let unwatched: usize = entries.iter().map(|c| c.unwatched()).sum();
     let text = format!(
         "{unwatched} of {all} golden rungs are on no short ladder, and no test computes the exhibits: these numbers are as \
-         good as the last run of their study."
+         good as the last run of their study. A seal on every file turns red where a digit is changed by hand; `verify --full` \
+         evaluates all of them anew."
     );
     item(out, &text);
     out.push('\n');

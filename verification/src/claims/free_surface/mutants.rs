@@ -99,6 +99,6 @@ pub const FLOOR_AT_REST: Mutant = Mutant {
     erratum: "K3",
     description: "The floor of τ⁻ holds at rest, too: stress diffuses, and what is rigid creeps to make up for it.",
     caught_by: "rest-below-yield",
-    rung: Some(10.0),
+    rung: Some(6.0),
     subject: Subject::Backend(|| Box::new(Mistaken(Mistake::FloorAtRest))),
 };
