@@ -309,7 +309,7 @@ fn encodings_folders_and_devices() {
 fn vectors_and_choices_of_the_wrong_length() {
     let mut four = pool();
     four["domain"]["size_m"] = json!([0.4, 0.4, 0.2, 1.0]);
-    says(&refusal(&four), &["`domain.size_m`", "an array of 4 entries", "3 for a vector"]);
+    says(&refusal(&four), &["`domain.size_m`", "an array of 4 entries", "an array of 3 numbers"]);
     let mut two = pool();
     two["domain"]["size_m"] = json!([0.4, 0.4]);
     says(&refusal(&two), &["`domain.size_m"]);
@@ -376,4 +376,24 @@ fn memory_follows_the_fluid() {
     let numbers = plan(&json).expect("a plan").numbers;
     let most = numbers.bytes_at_most.expect("a free surface in blocks");
     assert!(most as f64 > 1.2 * numbers.bytes as f64, "{most} {}", numbers.bytes);
+}
+
+#[test]
+fn hidden_solids_shut_gates_and_densities_in_other_units_are_warned_about() {
+    let block = |name: &str, low: f64, high: f64, above: f64| json!({"name": name, "shape": {"box": {"min_m": [low, 0, above], "max_m": [high, 0.4, 0.2]}}});
+    let mut json = pool();
+    json["solids"] = json!([block("hidden", 0.28, 0.32, 0.04), block("gate", 0.24, 0.36, 0.028)]);
+    json["fluid"]["density_kg_per_m3"] = json!(1.8);
+    let said = warnings(&json).join("\n");
+    says(
+        &said,
+        &[
+            "`hidden` has no cell of its own",
+            "a gap between a solid and a wall is 0.028 m wide along z",
+            "1.8 kg/m³, which no",
+        ],
+    );
+    json["solids"] = json!([block("first", 0.24, 0.32, 0.04), block("second", 0.28, 0.36, 0.04)]);
+    json["output"] = json!({"probes": [{"name": "load", "measure": {"force": {"solid": "first"}}}]});
+    says(&warnings(&json).join("\n"), &["50 % of the cells of `first`"]);
 }

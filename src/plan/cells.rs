@@ -78,6 +78,13 @@ pub(crate) fn holds_a_cell(shape: &Shape, invert: bool, domain: &Domain) -> bool
     paint(extents(domain), domain.spacing_m, &[(shape, invert)]).contains(&1)
 }
 
+/// How many cell centres of the box a shape holds.
+#[must_use]
+pub(crate) fn holds_cells(shape: &Shape, invert: bool, domain: &Domain) -> u64 {
+    let cells = paint(extents(domain), domain.spacing_m, &[(shape, invert)]);
+    cells.iter().filter(|&&s| s != 0).count() as u64
+}
+
 fn gap(extents: [usize; 3], faces: &[[Boundary; 2]; 3], solids: &[u8]) -> f64 {
     if solids.is_empty() {
         return (0..3).map(|a| empty_run(extents[a], faces[a])).fold(f64::INFINITY, least);

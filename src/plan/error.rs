@@ -151,7 +151,8 @@ pub enum PlanProblem {
     #[error(
         "{steps:.3e} steps of {dt:.3e} s to reach {end:.3e} s\n  \
          allowed: at most 9e15, the integers exact in 64-bit floating point\n  \
-         way out: an earlier `stop.end_time_s`"
+         way out: an earlier `stop.end_time_s`; the step follows from density, viscosity, forces and spacing: check their \
+         magnitudes"
     )]
     TooManySteps { steps: f64, dt: f64, end: f64 },
     /// End before the first step.

@@ -6,12 +6,14 @@ mod choose;
 mod cost;
 pub mod coupled;
 mod disk;
+mod drawn;
 mod error;
 mod facts;
 mod fastest;
 mod figures;
 mod film_error;
 pub mod grains;
+mod holding;
 mod initial;
 mod judge;
 mod limits;
@@ -144,7 +146,11 @@ impl Plan {
         given.bodies += started.as_ref().map_or(0.0, |started| started.given);
         let (gap, fluid_cells, pool) = (cells.gap, cells.fluid_cells, cells.pool);
         // Not for the attempts, of which only the verdict counts.
-        let slits = if accepts.is_some() { slits::warnings(scene, &cells) } else { Vec::new() };
+        let drawn = if accepts.is_some() {
+            [slits::warnings(scene, &cells), drawn::warnings(scene, &cells)].concat()
+        } else {
+            Vec::new()
+        };
         let mut setup = lower::lower(&facts, &units, cells);
         let finished = started
             .map(|started| started.finish(&facts, &units, &scales, &mut setup, rule.path()))
@@ -156,7 +162,9 @@ impl Plan {
         verdict.map_err(|(path, problem)| at(path, problem))?;
         let basis = Basis { facts: &facts, units: &units, setup: &setup, scales: &scales, steps, gap, pool };
         let mut numbers = shown(&Given { basis, judged, rule, fluid_cells, layout }, finished.as_ref());
-        numbers.warnings.extend(slits);
+        numbers.warnings.extend(drawn);
+        let days = numbers.estimated_seconds / 86_400.0;
+        numbers.warnings.extend((days > 1.0).then_some(Warning::Days { days }));
         let most = numbers.bytes_at_most.zip(available).filter(|(most, available)| most > available);
         numbers.warnings.extend(most.map(|(bytes, available)| Warning::MemoryLater { bytes, available }));
         Ok(Self { units, setup, steps, grains: finished.map(|(coupled, _)| coupled), numbers })

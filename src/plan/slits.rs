@@ -1,16 +1,16 @@
-//! Gaps between solids, and solids between gaps, that have another width in cells than as drawn.
+//! Gaps between solids and to walls of the box, and solids between gaps, that have another width in cells than as drawn.
 
 use super::cells::Cells;
 use super::warning::Warning;
 use crate::geometry::Axis;
-use crate::scene::Scene;
+use crate::scene::{Boundary, Scene};
 
 /// Width below which a mismatch matters, cells: above it a flow through the gap is resolved.
 const NARROW: f64 = 4.0;
 /// Mismatch worth a warning, as a share of the width as drawn.
 const MISMATCH: f64 = 0.1;
-/// Points per cell along a line; ends are then found by halving.
-const POINTS: usize = 8;
+/// Points per cell along a line, the centre among them, which is what makes a cell solid; ends are then found by halving.
+const POINTS: usize = 9;
 /// Points asked along an axis, of simple solids; lines are left out where it would be more.
 const BUDGET: usize = 1_000_000;
 /// Ends of a neighbouring line that lie farther off than this, cells, belong to a curved or oblique surface: widths along a
@@ -22,6 +22,8 @@ const PARALLEL: f64 = 0.05;
 struct Stretch {
     axis: Axis,
     solid: bool,
+    /// Whether a wall of the box is an end of it.
+    at_wall: bool,
     /// Place on the line and ends along it, cells.
     at: [f64; 3],
     ends: [f64; 2],
@@ -53,14 +55,20 @@ pub(super) fn warnings(scene: &Scene, cells: &Cells) -> Vec<Warning> {
         scene.solids.iter().any(|solid| solid.shape.contains(point) != solid.invert)
     };
     let budget = BUDGET / scene.solids.iter().map(|solid| solid.shape.weight()).sum::<usize>().max(1);
-    let all = Axis::ALL.into_iter().flat_map(|axis| along(axis, cells, budget, &inside));
+    let faces = scene.domain.boundaries.by_axis();
+    let walls = faces.map(|pair| pair.map(|face| !matches!(face, Boundary::Periodic | Boundary::Open)));
+    let all = Axis::ALL.into_iter().flat_map(|axis| along(axis, cells, budget, walls[axis.index()], &inside));
     let found: Vec<Stretch> = all.collect();
     let worst = |solid: bool| {
         let these = found.iter().filter(|stretch| stretch.solid == solid);
         these.max_by(|a, b| a.mismatch().total_cmp(&b.mismatch()))
     };
     let warning = |stretch: &Stretch| Warning::OtherWidth {
-        what: if stretch.solid { "a solid between gaps" } else { "a gap between solids" },
+        what: match (stretch.solid, stretch.at_wall) {
+            (true, _) => "a solid between gaps",
+            (false, false) => "a gap between solids",
+            (false, true) => "a gap between a solid and a wall",
+        },
         axis: stretch.axis.letter(),
         at_m: stretch.at.map(|x| x * dx),
         drawn_m: stretch.width() * dx,
@@ -70,8 +78,14 @@ pub(super) fn warnings(scene: &Scene, cells: &Cells) -> Vec<Warning> {
     [false, true].into_iter().filter_map(worst).map(warning).collect()
 }
 
-/// Mismatches along the lines of one axis.
-fn along(axis: Axis, cells: &Cells, budget: usize, inside: &dyn Fn([f64; 3]) -> bool) -> Vec<Stretch> {
+/// Mismatches along the lines of one axis; `walls`: at which of its faces a wall or a mirror ends a gap.
+fn along(
+    axis: Axis,
+    cells: &Cells,
+    budget: usize,
+    walls: [bool; 2],
+    inside: &dyn Fn([f64; 3]) -> bool,
+) -> Vec<Stretch> {
     let (a, [b, c]) = (axis.index(), axis.others());
     let n = cells.extents;
     if n[a] == 1 {
@@ -84,15 +98,21 @@ fn along(axis: Axis, cells: &Cells, budget: usize, inside: &dyn Fn([f64; 3]) -> 
     for line in (0..lines).step_by(every) {
         let mut at = [0.0; 3];
         (at[b], at[c]) = ((line % n[b]) as f64 + 0.5, (line / n[b]) as f64 + 0.5);
-        let wrong = stretches(axis, at, n[a], inside).into_iter();
+        let wrong = stretches(axis, at, n[a], walls, inside).into_iter();
         let wrong = wrong.filter(|s| s.width() < NARROW && s.mismatch() > MISMATCH);
-        found.extend(wrong.filter(|stretch| is_plane(stretch, [b, c], n, inside)));
+        found.extend(wrong.filter(|stretch| is_plane(stretch, [b, c], n, walls, inside)));
     }
     found
 }
 
-/// Stretches of a line that end within the box on both sides.
-fn stretches(axis: Axis, at: [f64; 3], n: usize, inside: &dyn Fn([f64; 3]) -> bool) -> Vec<Stretch> {
+/// Stretches of a line that end within the box, or where a gap does at a wall of it.
+fn stretches(
+    axis: Axis,
+    at: [f64; 3],
+    n: usize,
+    walls: [bool; 2],
+    inside: &dyn Fn([f64; 3]) -> bool,
+) -> Vec<Stretch> {
     let a = axis.index();
     let place = |x: f64| {
         let mut p = at;
@@ -101,6 +121,10 @@ fn stretches(axis: Axis, at: [f64; 3], n: usize, inside: &dyn Fn([f64; 3]) -> bo
     };
     let of = |i: usize| (i as f64 + 0.5) / POINTS as f64;
     let (mut out, mut state, mut start) = (Vec::new(), inside(place(of(0))), None);
+    let mut from_wall = walls[0] && !state;
+    if from_wall {
+        start = Some(0.0);
+    }
     for i in 1..n * POINTS {
         if inside(place(of(i))) == state {
             continue;
@@ -114,20 +138,32 @@ fn stretches(axis: Axis, at: [f64; 3], n: usize, inside: &dyn Fn([f64; 3]) -> bo
         let end = 0.5 * (low + high);
         if let Some(start) = start {
             let at = place(0.5 * (start + end));
-            out.push(Stretch { axis, solid: state, at, ends: [start, end] });
+            out.push(Stretch { axis, solid: state, at_wall: from_wall, at, ends: [start, end] });
         }
+        from_wall = false;
         (state, start) = (!state, Some(end));
+    }
+    if let Some(start) = start.filter(|_| walls[1] && !state) {
+        let ends = [start, n as f64];
+        let at = place(0.5 * (ends[0] + ends[1]));
+        out.push(Stretch { axis, solid: false, at_wall: true, at, ends });
     }
     out
 }
 
 /// Whether both ends stay where they are on the lines beside it, half a cell away along both other axes.
-fn is_plane(stretch: &Stretch, others: [usize; 2], n: [usize; 3], inside: &dyn Fn([f64; 3]) -> bool) -> bool {
+fn is_plane(
+    stretch: &Stretch,
+    others: [usize; 2],
+    n: [usize; 3],
+    walls: [bool; 2],
+    inside: &dyn Fn([f64; 3]) -> bool,
+) -> bool {
     let a = stretch.axis.index();
     let beside = |axis: usize, by: f64| {
         let mut at = stretch.at;
         at[axis] += by;
-        let lines = stretches(stretch.axis, at, n[a], inside);
+        let lines = stretches(stretch.axis, at, n[a], walls, inside);
         let near = |x: f64, y: f64| (x - y).abs() < PARALLEL;
         lines.iter().any(|s| near(s.ends[0], stretch.ends[0]) && near(s.ends[1], stretch.ends[1]))
     };
@@ -144,9 +180,15 @@ mod tests {
     const N: [usize; 3] = [40, 10, 1];
 
     fn found(inside: impl Fn([f64; 3]) -> bool) -> Vec<(bool, f64, f64)> {
+        within([false; 2], inside)
+    }
+
+    fn within(walls: [bool; 2], inside: impl Fn([f64; 3]) -> bool) -> Vec<(bool, f64, f64)> {
         let cells = Cells { extents: N, ..Cells::default() };
-        let all =
-            Axis::ALL.into_iter().flat_map(|axis| along(axis, &cells, BUDGET, &inside)).collect::<Vec<_>>();
+        let all = Axis::ALL
+            .into_iter()
+            .flat_map(|axis| along(axis, &cells, BUDGET, walls, &inside))
+            .collect::<Vec<_>>();
         let mut out: Vec<_> =
             all.iter().map(|s| (s.solid, (1e4 * s.width()).round() / 1e4, s.cells())).collect();
         out.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
@@ -162,6 +204,18 @@ mod tests {
         // A slit that no centre of a cell lies in.
         let closed = |p: [f64; 3]| !(5.6..5.9).contains(&p[0]);
         assert_eq!(found(closed), [(false, 0.3, 0.0)]);
+    }
+
+    /// A gate 1.4 cells above the floor, one that the cells shut, and a sheet of a fiftieth of a cell that becomes a cell.
+    #[test]
+    fn exact_gates_and_sheets() {
+        let gate = |above: f64| move |p: [f64; 3]| (20.0..22.0).contains(&p[0]) && p[1] > above;
+        assert_eq!(within([true; 2], gate(1.4)), [(false, 1.4, 1.0)]);
+        assert_eq!(within([true; 2], gate(0.4)), [(false, 0.4, 0.0)]);
+        assert!(within([true; 2], gate(2.0)).is_empty() && found(gate(1.4)).is_empty());
+        let lid = |p: [f64; 3]| (20.0..22.0).contains(&p[0]) && p[1] < 8.3;
+        assert_eq!(within([true; 2], lid), [(false, 1.7, 2.0)]);
+        assert_eq!(found(|p| (p[0] - 20.5).abs() < 0.01), [(true, 0.02, 1.0)]);
     }
 
     #[test]

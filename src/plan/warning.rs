@@ -1,7 +1,5 @@
 //! What to think about before running.
 
-use serde::{Serialize, Serializer};
-
 use super::film_error::film_error;
 use super::text::{human, relaxation, short};
 use super::wall_error::{ERROR_MAX, Expected, PUSH_MAX};
@@ -210,6 +208,38 @@ pub enum Warning {
         /// Their width, m.
         cells_m: f64,
     },
+    /// A solid without cells of its own.
+    #[error(
+        "`{name}` has no cell of its own: solids that come after it in `solids` hold all of them, and a cell belongs to the \
+         last; forces on it are 0; put it after them"
+    )]
+    SolidHidden {
+        /// Its name.
+        name: String,
+    },
+    /// A loaded solid that shares cells.
+    #[error(
+        "{:.0} % of the cells of `{name}` belong to solids after it in `solids`: its force and torque are of the rest alone",
+        100.0 * share
+    )]
+    SolidShared {
+        /// Its name.
+        name: String,
+        /// Share of its cells.
+        share: f64,
+    },
+    /// A density in other units.
+    #[error(
+        "the density of {name} is {} kg/m³, which no liquid or solid has: water has 1000, rock 2650; numbers in g/cm³ are \
+         to be multiplied by 1000",
+        short(*density_kg_per_m3)
+    )]
+    OddDensity {
+        /// Name of the material.
+        name: String,
+        /// As given, kg/m³.
+        density_kg_per_m3: f64,
+    },
     /// Memory that may be needed later.
     #[error(
         "blocks of memory follow the fluid: once it has reached every open cell the run holds {}, and {} are available",
@@ -365,16 +395,4 @@ impl Warning {
     pub(crate) const fn holds_in_a_fluid(&self) -> bool {
         !matches!(self, Self::FallForEver | Self::Days { .. })
     }
-}
-
-impl Serialize for Warning {
-    /// Its text.
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
-    }
-}
-
-/// The warnings whose condition holds.
-pub(super) fn holding(warnings: impl IntoIterator<Item = (bool, Warning)>) -> Vec<Warning> {
-    warnings.into_iter().filter_map(|(holds, warning)| holds.then_some(warning)).collect()
 }

@@ -1,10 +1,11 @@
 //! The warnings of a plan for a scene with fluid.
 
 use super::figures::Basis;
+use super::holding::holding;
 use super::numbers::Numbers;
 use super::time_step::compression;
 use super::wall_error::{ERROR_MAX, FEW_CELLS, PUSH_MAX, THIN_LAYER};
-use super::warning::{Warning, holding};
+use super::warning::Warning;
 use crate::rheology::Law;
 use crate::scene::InitialPressure;
 use crate::setup::{Precision, YieldTreatment};

@@ -1,11 +1,11 @@
 //! What can be wrong with a scene file.
 
+pub use super::hint::Hint;
 pub use super::key_rule::KeyRule;
 pub use super::located::Located;
-pub use super::meaning::Hint;
 use super::words::{
-    already, choose, did_you_mean, found_keys, list, list_or, list_static, range, rename_or_add,
-    rename_or_define, rename_or_remove, right_type, with_space,
+    already, choose, did_you_mean, found_keys, list, list_or, list_static, not_whole, number, range,
+    rename_or_add, rename_or_define, rename_or_remove, right_type, with_space,
 };
 
 /// A problem found while reading or checking a scene.
@@ -34,9 +34,9 @@ pub enum SceneProblem {
     /// Not JSON.
     #[error(
         "line {line}, column {column}: not JSON: {detail}\n  \
-         way out: mend the text there; JSON has no comments and no comma after a last entry"
+         way out: {way_out}"
     )]
-    Syntax { line: usize, column: usize, detail: String },
+    Syntax { line: usize, column: usize, detail: String, way_out: &'static str },
     /// NaN or Infinity.
     #[error(
         "line {line}, column {column}: found {token}\n  \
@@ -82,13 +82,13 @@ pub enum SceneProblem {
     WrongType { found: String, expected: String },
     /// A quantity that must be > 0.
     #[error(
-        "found {found}{}\n  allowed: > 0, {because}\n  \
-         way out: {way_out}", with_space(.unit))]
+        "found {}{}\n  allowed: > 0, {because}\n  \
+         way out: {way_out}", number(*.found), with_space(.unit))]
     NotPositive { found: f64, unit: &'static str, because: &'static str, way_out: &'static str },
     /// A quantity that must be ≥ 0.
     #[error(
-        "found {found}{}\n  allowed: ≥ 0, {because}\n  \
-         way out: {way_out}", with_space(.unit))]
+        "found {}{}\n  allowed: ≥ 0, {because}\n  \
+         way out: {way_out}", number(*.found), with_space(.unit))]
     Negative { found: f64, unit: &'static str, because: &'static str, way_out: &'static str },
     /// A quantity with a range.
     #[error(
@@ -104,15 +104,17 @@ pub enum SceneProblem {
     },
     /// Edge length is no multiple of the spacing.
     #[error(
-        "found {size} m, which is {cells} cells of {spacing} m\n  \
+        "found {} m, which is {} cells of {} m\n  \
          allowed: whole cells; walls lie on cell faces [B1]\n  \
-         way out: the nearest edge length is {nearest} m"
+         way out: the nearest edge length is {} m",
+        number(*.size), not_whole(*.cells), number(*.spacing), number(*.nearest)
     )]
     NotMultiple { size: f64, spacing: f64, cells: f64, nearest: f64 },
     /// An edge shorter than a cell.
     #[error(
-        "found {size} m, less than one cell of {spacing} m\n  allowed: at least one whole cell\n  \
-         way out: an edge of {spacing} m, or a smaller `domain.spacing_m`"
+        "found {} m, less than one cell of {} m\n  allowed: at least one whole cell\n  \
+         way out: an edge of {} m, or a smaller `domain.spacing_m`",
+        number(*.size), number(*.spacing), number(*.spacing)
     )]
     NoCell { size: f64, spacing: f64 },
     /// More cells than can be indexed.
@@ -169,10 +171,9 @@ pub enum SceneProblem {
     UnusedKey { key: &'static str, because: &'static str },
     /// Corners in the wrong order.
     #[error(
-        "axis {axis}: found from {low} m to {high} m\n  \
+        "axis {axis}: found from {} m to {} m\n  \
          allowed: the first less than the second, else nothing is inside\n  \
-         way out: swap them, or make them different"
-    )]
+         way out: swap them, or make them different", number(*.low), number(*.high))]
     EmptyInterval { axis: char, low: f64, high: f64 },
     /// Too few corners or no area.
     #[error(
@@ -305,10 +306,9 @@ pub enum SceneProblem {
     BadSieveCurve,
     /// Outside the box.
     #[error(
-        "axis {axis}: found {low} m to {high} m\n  \
-         allowed: something between 0 m and {size} m, the box\n  \
-         way out: move it into the box, or remove it"
-    )]
+        "axis {axis}: found {} m to {} m\n  \
+         allowed: something between 0 m and {} m, the box\n  \
+         way out: move it into the box, or remove it", number(*.low), number(*.high), number(*.size))]
     OutsideDomain { axis: char, low: f64, high: f64, size: f64 },
     /// A name used twice.
     #[error("name `{name}` is used twice\n  allowed: unique names\n  way out: rename one")]
@@ -390,9 +390,8 @@ pub enum SceneProblem {
     NoSuchField,
     /// A time beyond the end.
     #[error(
-        "found {found} s\n  \
-         allowed: at most the end time, {end} s\n  \
-         way out: a shorter interval, or a later `stop.end_time_s`"
-    )]
+        "found {} s\n  \
+         allowed: at most the end time, {} s\n  \
+         way out: a shorter interval, or a later `stop.end_time_s`", number(*.found), number(*.end))]
     BeyondEnd { found: f64, end: f64 },
 }

@@ -1,13 +1,12 @@
 //! What words of other programs, papers and habits mean in a scene.
 
-use super::nearest::nearest;
-
 /// Words with one meaning, and the names that may stand for it here, the likeliest first.
-struct Meaning {
-    words: &'static [&'static str],
-    names: &'static [&'static str],
+pub(super) struct Meaning {
+    pub(super) words: &'static [&'static str],
+    /// None where there is no such thing; the note says so.
+    pub(super) names: &'static [&'static str],
     /// What else has to be said: another unit, or that there is no such thing.
-    note: &'static str,
+    pub(super) note: &'static str,
 }
 
 const fn meaning(
@@ -20,16 +19,27 @@ const fn meaning(
 
 const NO_INFLOW: &str = "there is no inflow: draw a reservoir in `fluid.initial` that runs out, or drive the fluid along a \
                          periodic axis with gravity or `fluid.body_force`";
-const NO_MESH: &str = "meshes are walls of grains without fluid; with fluid give a `shape`: `heightfield` for terrain, \
+pub(super) const NO_MESH: &str = "meshes are walls of grains without fluid; with fluid give a `shape`: `heightfield` for terrain, \
                        `polygon`, or a `union` of shapes";
+const CELLS: &str = "the edge length over the number of cells along it";
+const NO_PERIODIC_KEY: &str = "leave out both faces of an axis in `domain.boundaries` to make it periodic";
+const NO_TENSION: &str =
+    "there is no surface tension: lahar is for flows that are large against the capillary length";
+const NO_HEAT: &str = "there is no heat: give the rheology at the temperature of the flow";
+const NO_TURBULENCE: &str =
+    "there is no turbulence model: the flow is resolved as it is, and `lahar plan` says its Reynolds number";
+const NO_REFINEMENT: &str = "all cells have one size: `domain.spacing_m`";
+const NO_UNITS: &str = "every key names its unit, and all of them are SI";
+const NOT_IN_THE_SCENE: &str = "it is an option of the command: `lahar run --help`";
+const NO_STEPS: &str = "a run ends at `stop.end_time_s`; `lahar plan` says how many steps that is";
 const HALF: &str = "half of the diameter";
 const TIMES_DENSITY: &str = "the kinematic viscosity times the density";
 
 /// Without units: `height` stands for `height_m` too.
-const MEANINGS: &[Meaning] = &[
+pub(super) const MEANINGS: &[Meaning] = &[
     // The box and its faces.
     meaning(
-        &["dx", "dh", "h", "delta_x", "cell_size", "grid_size", "grid_spacing", "resolution", "voxel_size"],
+        &["dx", "dh", "h", "delta_x", "cell_size", "grid_size", "grid_spacing", "voxel_size"],
         &["spacing_m"],
         "",
     ),
@@ -47,6 +57,9 @@ const MEANINGS: &[Meaning] = &[
         "",
     ),
     meaning(&["cyclic", "wrap", "wrapped"], &["periodic"], ""),
+    meaning(&["periodic", "periodicity"], &[], NO_PERIODIC_KEY),
+    meaning(&["cells", "nx", "ny", "nz", "n_cells", "resolution", "grid_cells"], &["spacing_m"], CELLS),
+    meaning(&["refinement", "amr", "levels_of_refinement"], &[], NO_REFINEMENT),
     meaning(&["lid", "moving", "sliding_wall", "velocity_wall"], &["moving_wall"], ""),
     meaning(
         &["outflow", "outlet", "pressure_outlet", "zero_gradient", "free_outflow", "atmosphere"],
@@ -61,7 +74,16 @@ const MEANINGS: &[Meaning] = &[
         &["slope_deg"],
         "",
     ),
+    meaning(
+        &["vector", "down", "gravity_vector"],
+        &["direction"],
+        "`magnitude_m_per_s2` is a key of its own",
+    ),
     // Fluid.
+    meaning(&["surface_tension", "sigma", "contact_angle", "wetting"], &[], NO_TENSION),
+    meaning(&["temperature", "heat", "thermal"], &[], NO_HEAT),
+    meaning(&["turbulence", "les", "smagorinsky", "turbulence_model"], &[], NO_TURBULENCE),
+    meaning(&["start_velocity", "v0", "u0"], &["initial_velocity"], ""),
     meaning(&["rho", "rho0", "density", "mass_density"], &["density_kg_per_m3"], ""),
     meaning(
         &["mu", "eta", "viscosity", "dynamic_viscosity", "plastic_viscosity"],
@@ -155,7 +177,8 @@ const MEANINGS: &[Meaning] = &[
     ),
     meaning(&["vertices", "corners", "points", "coordinates"], &["points_m"], ""),
     meaning(&["elevations", "z", "values", "data"], &["heights_m"], ""),
-    meaning(&["omega", "angular_velocity", "rotation_speed", "rpm"], &["spin_rad_per_s"], ""),
+    meaning(&["omega", "angular_velocity", "rotation_speed"], &["spin_rad_per_s"], ""),
+    meaning(&["rpm"], &["spin_rad_per_s"], "a vector, of numbers times 0.10472"),
     // Numerics.
     meaning(&["dt", "delta_t", "timestep", "step"], &["time_step_s"], ""),
     meaning(&["tau", "relaxation"], &["relaxation_time"], ""),
@@ -166,6 +189,15 @@ const MEANINGS: &[Meaning] = &[
     meaning(&["srt", "lbgk", "single_relaxation_time"], &["bgk"], ""),
     meaning(&["float", "f32", "fp32", "float32"], &["single"], ""),
     meaning(&["f64", "fp64", "float64"], &["double"], ""),
+    meaning(
+        &["threads", "backend", "n_threads", "cores", "checkpoint", "quiet", "out_dir"],
+        &[],
+        NOT_IN_THE_SCENE,
+    ),
+    meaning(&["steps", "max_steps", "time_steps", "n_steps", "iterations", "nt"], &[], NO_STEPS),
+    meaning(&["units", "unit", "unit_system"], &[], NO_UNITS),
+    meaning(&["name", "label", "scene"], &["title"], ""),
+    meaning(&["comment", "_comment", "comments", "note", "notes", "remark", "info"], &["description"], ""),
     // End.
     meaning(
         &[
@@ -218,112 +250,13 @@ const MEANINGS: &[Meaning] = &[
     meaning(&["energy"], &["kinetic_energy", "energies"], ""),
     // Grains.
     meaning(&["particles", "spheres", "dem", "boulders", "granular"], &["grains"], ""),
-    meaning(&["young", "youngs_modulus", "e", "stiffness", "elastic_modulus"], &["young_modulus_pa"], ""),
+    meaning(&["young", "youngs_modulus", "stiffness", "elastic_modulus"], &["young_modulus_pa"], ""),
     meaning(&["poisson", "nu"], &["poisson_ratio"], ""),
+    meaning(&["e"], &["restitution", "young_modulus_pa"], ""),
     meaning(&["cor", "coefficient_of_restitution", "restitution_coefficient"], &["restitution"], ""),
+    meaning(&["hertz", "hertz_mindlin", "hertzian"], &["tsuji", "visco_elastic"], ""),
+    meaning(&["spring_dashpot", "hooke", "lsd"], &["linear"], ""),
     meaning(&["mu_s", "friction_coefficient", "coulomb_friction"], &["friction"], ""),
     meaning(&["seed_count", "number", "n_particles", "number_of_particles"], &["count"], ""),
     meaning(&["porosity", "packing_fraction", "volume_fraction"], &["solid_fraction"], ""),
 ];
-
-/// Units that names end in.
-const UNITS: &[&str] = &[
-    "_kg_per_m3",
-    "_m_per_s2",
-    "_m_per_s",
-    "_rad_per_s",
-    "_n_per_m3",
-    "_pa_s_n",
-    "_pa_s",
-    "_pa",
-    "_deg",
-    "_hz",
-    "_mm",
-    "_cm",
-    "_m",
-    "_s",
-];
-
-/// A word in lower case with underscores, without its unit.
-fn bare(word: &str) -> String {
-    let (mut plain, mut after_small) = (String::new(), false);
-    for c in word.chars() {
-        // `endTime`, but not `MRT`.
-        if c.is_uppercase() && after_small {
-            plain.push('_');
-        }
-        after_small = c.is_lowercase();
-        plain.extend(if c == '-' || c == ' ' { '_' } else { c }.to_lowercase());
-    }
-    let unit = UNITS.iter().find(|unit| plain.len() > unit.len() && plain.ends_with(*unit));
-    unit.map_or(plain.clone(), |unit| plain[..plain.len() - unit.len()].to_owned())
-}
-
-/// What to write instead of an unknown word.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Hint {
-    /// The name that was probably meant.
-    pub name: Option<String>,
-    /// What else has to be said; may be empty.
-    pub note: &'static str,
-}
-
-/// The allowed name that was probably meant: by what the word means elsewhere, or as it is written.
-#[must_use]
-pub(crate) fn hint(found: &str, allowed: &[String]) -> Hint {
-    let meant = meant(found, allowed);
-    let (name, note) = match meant {
-        Some((Some(name), note)) => (Some(name), note),
-        other => {
-            let written = nearest(found, allowed);
-            let note = other.filter(|_| written.is_none()).map_or("", |(_, note)| note);
-            (written, note)
-        }
-    };
-    Hint { name: name.map(str::to_owned), note }
-}
-
-/// The allowed name with the meaning of `found`, and what else has to be said; with no name if there is no such thing.
-fn meant<'a>(found: &str, allowed: &'a [String]) -> Option<(Option<&'a str>, &'static str)> {
-    let word = bare(found);
-    let about: Vec<&Meaning> = MEANINGS.iter().filter(|m| m.words.contains(&word.as_str())).collect();
-    let named = about.iter().find_map(|meaning| {
-        let mut names = meaning.names.iter().filter_map(|name| allowed.iter().find(|other| other == name));
-        names.next().map(|name| (Some(name.as_str()), meaning.note))
-    });
-    // A note may stand alone: what it is about is not to be had here.
-    let alone = about.iter().find(|m| [NO_INFLOW, NO_MESH].contains(&m.note)).map(|m| (None, m.note));
-    named.or(alone)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_of_other_programs() {
-        let cases: &[(&str, &[&str], &str)] = &[
-            ("max_height", &["point_velocity", "surface_profile", "mass"], "surface_profile"),
-            ("base_diameter_m", &["base_m", "base_radius_m", "direction"], "base_radius_m"),
-            ("dx", &["size_m", "spacing_m", "boundaries"], "spacing_m"),
-            ("endTime", &["end_time_s", "steady"], "end_time_s"),
-            ("t_end", &["end_time_s", "steady"], "end_time_s"),
-            ("outlet", &["periodic", "no_slip", "open"], "open"),
-            ("MRT", &["bgk", "trt", "central_moment"], "central_moment"),
-            ("obstacles", &["domain", "solids", "fluid"], "solids"),
-            ("bounce-back", &["no_slip", "free_slip"], "no_slip"),
-        ];
-        for (found, allowed, name) in cases {
-            let allowed: Vec<String> = allowed.iter().map(|&name| name.to_owned()).collect();
-            assert_eq!(hint(found, &allowed).name.as_deref(), Some(*name), "{found}");
-        }
-    }
-
-    #[test]
-    fn limit_what_does_not_exist_gets_a_note_and_no_name() {
-        let allowed = ["periodic", "no_slip", "moving_wall", "open"].map(str::to_owned);
-        assert_eq!(meant("inflow", &allowed), Some((None, NO_INFLOW)));
-        assert_eq!(meant("mesh", &["name", "shape"].map(str::to_owned)), Some((None, NO_MESH)));
-        assert_eq!(meant("temperature", &allowed), None);
-    }
-}

@@ -7,10 +7,13 @@ mod checker;
 mod coupled;
 mod domain;
 pub mod dry;
+mod elsewhere;
 mod error;
 mod field_choice;
 mod fluid;
 pub(crate) mod force;
+mod hint;
+mod json;
 mod key_rule;
 mod located;
 mod meaning;
@@ -40,7 +43,7 @@ pub use fluid::{
     BodyForce, FillLevel, Fluid, FluidShape, Gravity, InitialFluid, InitialPressure, InitialVelocity, Layer,
     Solid,
 };
-pub use meaning::Hint;
+pub use hint::Hint;
 pub use motion::{FACE_KEYS, Motion, Motions};
 pub use numerics::{
     Arrested, Cadence, ClampLimits, Collision, ExcessChoice, Numerics, Output, PrecisionChoice, RefillChoice,

@@ -5,14 +5,22 @@
 #[must_use]
 pub(crate) fn nearest<'a>(found: &str, allowed: &'a [String]) -> Option<&'a str> {
     let lower = found.to_lowercase();
-    let begins = |name: &&String| {
-        lower.len() >= 4 && (name.starts_with(lower.as_str()) || lower.starts_with(name.as_str()))
-    };
     let by_distance = allowed.iter().map(|name| (distance(&lower, name), name)).min_by_key(|(d, _)| *d);
     match by_distance {
         Some((d, name)) if d <= 2 || d * 3 <= name.len() => Some(name),
-        _ => allowed.iter().find(begins).map(String::as_str),
+        _ => allowed.iter().find(|name| begins(&lower, name)).map(String::as_str),
     }
+}
+
+/// Whether one of them is as good as the other: at most two typing errors, or one begins with the other.
+#[must_use]
+pub(super) fn is_typing_error(found: &str, name: &str) -> bool {
+    let lower = found.to_lowercase();
+    begins(&lower, name) || (lower.len() >= 4 && distance(&lower, name) <= 2)
+}
+
+fn begins(lower: &str, name: &str) -> bool {
+    lower.len() >= 4 && (name.starts_with(lower) || lower.starts_with(name))
 }
 
 /// Edit distance with insertions, deletions, substitutions and swaps of neighbours.

@@ -1,9 +1,28 @@
 //! Pieces of messages about scenes.
 
-use super::meaning::Hint;
+use super::hint::Hint;
+
+/// A number as it is written, with an exponent where that is shorter.
+pub(super) fn number(x: f64) -> String {
+    let short = x == 0.0 || !x.is_finite() || (1e-6..1e12).contains(&x.abs());
+    if short { x.to_string() } else { format!("{x:e}") }
+}
+
+/// A number of cells that is not whole, with as many digits as it takes to see that.
+pub(super) fn not_whole(x: f64) -> String {
+    let digits = (4..12).find(|&digits| {
+        let text = format!("{x:.digits$}");
+        text.parse().is_ok_and(|shown: f64| shown.fract() != 0.0)
+    });
+    format!("{x:.*}", digits.unwrap_or(4)).trim_end_matches('0').trim_end_matches('.').to_owned()
+}
 
 pub(super) fn range(low: f64, high: f64) -> String {
-    if high == f64::INFINITY { format!("at least {low}") } else { format!("{low} to {high}") }
+    if high == f64::INFINITY {
+        format!("at least {}", number(low))
+    } else {
+        format!("{} to {}", number(low), number(high))
+    }
 }
 
 pub(super) fn with_space(unit: &str) -> String {
@@ -15,7 +34,7 @@ pub(super) fn did_you_mean(nearest: Option<&String>) -> String {
 }
 
 pub(super) fn rename_or_remove(hint: &Hint) -> String {
-    match (&hint.name, hint.note) {
+    match (&hint.name, hint.note.as_str()) {
         (Some(name), "") => format!("rename it to `{name}`"),
         (Some(name), note) => format!("rename it to `{name}`: {note}"),
         (None, "") => "remove it".to_owned(),
@@ -32,7 +51,7 @@ pub(super) fn rename_or_define(nearest: Option<&String>, kind: &str) -> String {
 }
 
 pub(super) fn choose(hint: &Hint, allowed: &[String]) -> String {
-    match (&hint.name, hint.note) {
+    match (&hint.name, hint.note.as_str()) {
         (Some(name), "") => format!("write `{name}`"),
         (Some(name), note) => format!("write `{name}`: {note}"),
         (None, "") if allowed.len() == 1 => format!("write {}", list(allowed)),

@@ -3,7 +3,8 @@
 use super::gap_viscosity;
 use super::numbers::{CoupledNumbers, Given};
 use crate::coupling::GrainWall;
-use crate::plan::warning::{LOW_DENSITY_RATIO, LUBRICATED_GAP, Warning, holding};
+use crate::plan::holding::holding;
+use crate::plan::warning::{LOW_DENSITY_RATIO, LUBRICATED_GAP, Warning};
 use crate::scene::Operator;
 
 /// All of them, in the order in which they are printed.

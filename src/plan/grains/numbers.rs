@@ -8,8 +8,10 @@ use crate::dem::material::{Compiled, PairLaw};
 use crate::dem::{Dem, Integrator, Pace, Setup, Surface};
 use crate::plan::cost::SPHERE_UPDATES_PER_SECOND;
 use crate::plan::disk::Files;
+use crate::plan::drawn::odd_density;
+use crate::plan::holding::holding;
 use crate::plan::needs::Need;
-use crate::plan::warning::{Warning, holding};
+use crate::plan::warning::Warning;
 use crate::scene::dry::DryScene;
 
 /// What `lahar plan` prints for a scene without fluid.
@@ -268,7 +270,9 @@ fn warnings(scene: &DryScene, setup: &Setup, n: &GrainNumbers, estimated: f64) -
     let (overlap, limit, design) = (n.impact_overlap, n.overlap_limit, setup.design_speed_m_s);
     let slow = n.design_speed_given && design < 0.5 * estimated;
     let soft = setup.materials.list.iter().any(|m| m.young_pa < 1e5);
-    holding([
+    let materials = scene.grains.materials.iter();
+    let odd = materials.filter_map(|m| odd_density(&format!("`{}`", m.name), m.density_kg_per_m3));
+    let mut all = holding([
         (overlap > limit, Warning::ImpactStops { overlap, limit }),
         (overlap <= limit && overlap > 0.05, Warning::ImpactDeep { overlap }),
         (n.static_overlap > 0.02, Warning::PileDeep { overlap: n.static_overlap }),
@@ -277,7 +281,9 @@ fn warnings(scene: &DryScene, setup: &Setup, n: &GrainNumbers, estimated: f64) -
         (falls(setup) && setup.walls.is_empty() && n.driven == 0, Warning::FallForEver),
         (n.estimated_seconds > 86_400.0, Warning::Days { days: n.estimated_seconds / 86_400.0 }),
         (soft && scene.gravity.is_some(), Warning::Soft),
-    ])
+    ]);
+    all.extend(odd);
+    all
 }
 
 /// Whether gravity pulls along a periodic axis.

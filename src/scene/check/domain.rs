@@ -38,7 +38,7 @@ pub(super) fn check(at: &Checker, domain: &Domain) -> Result<(), SceneError> {
         at.ensure((cells - whole).abs() <= WHOLE, &path, || SceneProblem::NotMultiple {
             size,
             spacing,
-            cells: round_to(cells, 1e4),
+            cells,
             nearest: round_to(whole * spacing, 1e12),
         })?;
     }
