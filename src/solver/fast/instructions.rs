@@ -101,13 +101,22 @@ pub(crate) struct Passes<P, E> {
 }
 
 /// A function of registers, compiled for every instruction set: `$run` with portable registers, then those
-/// of x86_64.
+/// of x86_64. In the unit tests of this crate for one of them: the bits are the same, and others would take a minute to build.
 macro_rules! compiled {
     (
         [$($generics:ident : $bound:path),*] ($($argument:ident : $type:ty),*) $(-> $result:ty)?,
         $chosen:expr, $run:ident, $portable:ty, $sse2:ident $avx2:ident $avx512:ident
     ) => {{
-        #[cfg(target_arch = "x86_64")]
+        #[cfg(all(target_arch = "x86_64", test))]
+        {
+            let _wider = core::marker::PhantomData::<($avx2, $avx512)>;
+            match $chosen.get() {
+                Instructions::Baseline | Instructions::Avx2 | Instructions::Avx512 => {
+                    $run::<$sse2, $($generics),*>($($argument),*)
+                }
+            }
+        }
+        #[cfg(all(target_arch = "x86_64", not(test)))]
         {
             #[target_feature(enable = "avx2")]
             fn avx2<$($generics: $bound),*>($($argument: $type),*) $(-> $result)? {
