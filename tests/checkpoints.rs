@@ -212,13 +212,27 @@ fn grains_in_a_fluid_go_on_bit_for_bit() {
     survives("both", &grains_in_dam(), "plain", "3steps", 7);
 }
 
+fn summary_written(out: &Path) -> Option<std::time::SystemTime> {
+    std::fs::metadata(out.join("summary.json")).and_then(|data| data.modified()).ok()
+}
+
+/// Waits until a run has planned, which may take longer than the run, and has written that it is running.
+fn under_way(child: &mut std::process::Child, out: &Path, before: Option<std::time::SystemTime>) {
+    while summary_written(out) == before && child.try_wait().is_ok_and(|ended| ended.is_none()) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
 /// Kills a run as often as it takes to have killed it `kills` times, at moments that know nothing of its checkpoints: some before the
 /// first one, some while one is written. A run that comes to its end is compared, and the next one starts in a new folder.
 fn survives_many(name: &str, text: &str, backend: &str, every: &str, kills: u32) {
     let path = scene(&format!("{name}_{backend}_{kills}_kills"), text);
     let straight = path.with_file_name("straight");
+    let arguments = ["--out", &straight.to_string_lossy(), "--backend", backend, "--threads", "1"];
+    let mut child = command(&path, &arguments).stderr(Stdio::piped()).spawn().expect("it starts");
+    under_way(&mut child, &straight, None);
     let clock = Instant::now();
-    let output = run(&path, &["--out", &straight.to_string_lossy(), "--backend", backend, "--threads", "1"]);
+    let output = child.wait_with_output().expect("an end");
     // A few kills in the time of a run: it gets on between them even where checkpoints take most of it.
     let longest = clock.elapsed().mul_f64(0.5);
     assert_eq!(output.status.code(), Some(0), "{name}: {}", message(&output));
@@ -233,11 +247,13 @@ fn survives_many(name: &str, text: &str, backend: &str, every: &str, kills: u32)
         let way = if goes_on { ["--resume", &out_name] } else { ["--out", &out_name] };
         let threads = ["1", "2"][killed as usize % 2];
         let more = ["--checkpoint-every", every, "--backend", backend, "--threads", threads];
+        let before = summary_written(&out);
         let mut child = command(&path, &[&way[..], &more[..]].concat())
             .stderr(Stdio::piped())
             .spawn()
             .expect("it starts");
         resumed += u32::from(goes_on);
+        under_way(&mut child, &out, before);
         if killed < kills {
             random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             std::thread::sleep(longest.mul_f64((random >> 33) as f64 / f64::from(1_u32 << 31)));

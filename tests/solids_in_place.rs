@@ -55,9 +55,8 @@ fn exact_torque_on_cylinders() {
 #[test]
 fn mud_comes_to_rest_on_cell_centres() {
     let speeds = column(&series("tests/in_place/dam_on_cell_centres.json"), "fastest");
-    // It falls at √(2gH) = 6e-2 m/s at most, and over stairs ends at 1.4e-5 m/s. Set after seeing 1.03e-4, which falls by 2 % from
-    // row to row: a hundredth of what the fault gave.
-    assert!(speeds.iter().all(|&u| u < 0.06) && last(&speeds) < 2e-4, "{speeds:?}");
+    // It falls at √(2gH) = 6e-2 m/s at most, and over stairs ended at 1.4e-5 m/s; set after seeing 8.8e-5.
+    assert!(speeds.iter().all(|&u| u < 0.06) && last(&speeds) < 1e-4, "{speeds:?}");
 }
 
 /// With a law by stress at cut links mud in narrow corners began to move, from rounding by e every 30 steps.

@@ -3,6 +3,7 @@
 use super::cells::Cells;
 use super::facts::Facts;
 use super::initial::initial_flow;
+use super::surface::Pool;
 use crate::boundary::cut::cut_cells;
 use crate::collision::{CollisionChoice, OddRate};
 use crate::free_surface::settle::settle;
@@ -41,7 +42,7 @@ pub(crate) fn lower(facts: &Facts, units: &Units, mut cells: Cells) -> Setup {
     setup.solid_motion = solid_motion(scene, units);
     setup.courses = courses(scene, units);
     setup.yielding = yield_treatment(&scene.numerics.yield_treatment, units);
-    setup.collision = calmed(facts, &setup);
+    setup.collision = calmed(facts, &setup, cells.pool.as_ref());
     setup.wall_rule = match scene.numerics.wall_rule {
         WallChoice::HalfWay => WallRule::HalfWay,
         WallChoice::ViscosityIndependent => WallRule::ViscosityIndependent,
@@ -161,12 +162,15 @@ pub(crate) fn collision(facts: &Facts) -> CollisionChoice {
 
 /// The collision operator with the floor of τ⁻ that fades at rest \[K3\], where mud may creep: below a free surface that is no
 /// film without ends. A film has a straight profile of stress, which does not creep, and nothing but the floor damps its
-/// waves. A floor that is asked for holds at any speed.
-fn calmed(facts: &Facts, setup: &Setup) -> CollisionChoice {
+/// waves: level fluid, no solids, and around it faces that are periodic or mirrors. A floor that is asked for holds at any speed.
+fn calmed(facts: &Facts, setup: &Setup, pool: Option<&Pool>) -> CollisionChoice {
     let chosen = collision(facts);
     let asked = facts.scene.numerics.collision.floor.is_some();
-    let endless =
-        setup.periodic_axes().iter().filter(|&&periodic| periodic).count() > 1 && setup.solids.is_empty();
+    let open_ended = |pool: &Pool| {
+        let mut across = (0..3).filter(|&axis| axis != pool.up.index()).flat_map(|axis| setup.faces[axis]);
+        across.all(|face| matches!(face, Face::Periodic | Face::FreeSlip))
+    };
+    let endless = setup.solids.is_empty() && pool.is_some_and(|pool| pool.level && open_ended(pool));
     match chosen {
         CollisionChoice::CentralMoment(odd)
             if facts.any_plug() && setup.free_surface.is_some() && !asked && !endless =>

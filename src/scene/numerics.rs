@@ -129,7 +129,7 @@ pub struct Collision {
     /// Λ = (τ⁺ − ½)(τ⁻ − ½), no unit; 0.1875 when not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub magic: Option<f64>,
-    /// θ, least τ⁻ − ½, no unit; 0.05 when not given.
+    /// θ, least τ⁻ − ½, no unit; 0.05 when not given, and then less in mud at rest below a free surface, which would creep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub floor: Option<f64>,
     /// Below this τ⁺ − ½ the product Λ is given up for stability; 0.05 when not given, 0.15 with grains

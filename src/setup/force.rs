@@ -58,3 +58,27 @@ impl BodyForce {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limit_of_a_force_at_any_step() {
+        let swings = BodyForce::Oscillating {
+            mean: [3.0, 0.0, 4.0],
+            amplitude: [0.0, 2.0, 0.0],
+            frequency: 0.3,
+            phase: 0.1,
+        };
+        let steps = BodyForce::Stepped { before: [1.0, 0.0, 0.0], after: [0.0, -2.0, 0.0], at: 5 };
+        assert_eq!(
+            [BodyForce::Constant([0.0, -3.0, 4.0]).largest(), steps.largest(), swings.largest()],
+            [5.0, 2.0, 7.0]
+        );
+        for force in [swings, steps] {
+            let size = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+            assert!((0..50).all(|step| size(force.at(step)) <= force.largest()));
+        }
+    }
+}

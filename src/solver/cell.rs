@@ -154,7 +154,8 @@ fn slip_velocity<L: Lane, P: Physics>(
         rho,
         omega,
         magnitude: physics.stress_magnitude(&state.m),
-        squares: [state.m.square(), drag[0] * drag[0] + drag[1] * drag[1]],
+        // The drag of the five links of a flat wall is u_w/3.
+        squares: [state.m.square(), L::splat(9.0) * (drag[0] * drag[0] + drag[1] * drag[1])],
     };
     let slip = physics.slip(situation.fluid, &wall);
     flat.vector(&[e[0] * slip, e[1] * slip])
