@@ -83,9 +83,7 @@ impl Folder {
             let path = path.join(name);
             fs::remove_file(&path).map_err(|source| RunError::Folder { path, source })?;
         }
-        for folder in [path.to_path_buf(), path.join(PLOTS)] {
-            remove_temporary(&folder).map_err(|source| RunError::Folder { path: folder, source })?;
-        }
+        remove_temporary(path)?;
         file.set_len(0).and_then(|()| file.write_all(HEAD.as_bytes())).map_err(failed)?;
         let removed = old.len();
         let list = Mutex::new(List { names: BTreeSet::new(), file, flushed: Instant::now() });
@@ -98,7 +96,7 @@ impl Folder {
     /// Another run writes into it; its list is not one.
     pub fn reopen(path: &Path) -> Result<Self, RunError> {
         let (file, text) = locked_list(path)?;
-        remove_temporary(path).map_err(|source| RunError::Folder { path: path.to_path_buf(), source })?;
+        remove_temporary(path)?;
         let list = Mutex::new(List { names: listed(&text), file, flushed: Instant::now() });
         Ok(Self { path: path.to_path_buf(), list })
     }
@@ -218,8 +216,20 @@ fn looks_like_output(name: &str) -> bool {
     FIXED.contains(&name) || (number && NUMBERED.iter().any(|start| stem.starts_with(start)))
 }
 
-fn remove_temporary(folder: &Path) -> io::Result<()> {
-    for entry in fs::read_dir(folder)? {
+/// Removes what a killed run had not finished to write, from its folder and that of its plots.
+fn remove_temporary(path: &Path) -> Result<(), RunError> {
+    for folder in [path.to_path_buf(), path.join(PLOTS)] {
+        remove_temporary_of(&folder).map_err(|source| RunError::Folder { path: folder, source })?;
+    }
+    Ok(())
+}
+
+fn remove_temporary_of(folder: &Path) -> io::Result<()> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        entries => entries?,
+    };
+    for entry in entries {
         let entry = entry?;
         if atomic::is_temporary(&entry.file_name().to_string_lossy()) {
             fs::remove_file(entry.path())?;
@@ -236,6 +246,21 @@ mod tests {
     fn a_list_names_files_of_the_folder_only() {
         let text = "# head\nseries.csv\nplots/speed.svg\n../a\n/etc/b\nplots/../../c\nother/d\nplots/x/e\n\nfields_00";
         assert_eq!(Vec::from_iter(listed(text)), ["plots/speed.svg", "series.csv"]);
+    }
+
+    /// A run that was killed while it wrote a plot left the plot's temporary file behind for ever.
+    #[test]
+    fn what_a_killed_run_left_is_removed_when_it_goes_on() {
+        let path = std::env::temp_dir().join(format!("lahar-reopened-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        drop(Folder::claim(&path, false, None).expect("a folder"));
+        let left = [path.join(".lahar-1-2.part"), path.join(PLOTS).join(".lahar-1-3.part")];
+        left.iter().for_each(|file| fs::write(file, "half").expect("a file"));
+        drop(Folder::reopen(&path).expect("the same folder"));
+        assert!(left.iter().all(|file| !file.exists()));
+        fs::remove_dir_all(path.join(PLOTS)).expect("no plots");
+        drop(Folder::reopen(&path).expect("still a folder"));
+        fs::remove_dir_all(&path).expect("cleaned up");
     }
 
     #[test]
