@@ -397,3 +397,21 @@ fn hidden_solids_shut_gates_and_densities_in_other_units_are_warned_about() {
     json["output"] = json!({"probes": [{"name": "load", "measure": {"force": {"solid": "first"}}}]});
     says(&warnings(&json).join("\n"), &["50 % of the cells of `first`"]);
 }
+
+#[test]
+fn loaded_solids_of_another_volume_than_drawn_are_warned_about() {
+    let mut json = pool();
+    let ball = json!({"sphere": {"centre_m": [0.3, 0.2, 0.1], "radius_m": 0.05}});
+    json["solids"] = json!([{"name": "ball", "shape": ball}]);
+    json["output"] = json!({"probes": [{"name": "load", "measure": {"force": {"solid": "ball"}}}]});
+    // A ball of 5 cells across has 56 or 81 cells, not 65.4; of 20 cells within 2 %.
+    for (cells, off) in [(5.0, true), (20.0, false)] {
+        json["domain"]["spacing_m"] = json!(0.1 / cells);
+        let said = warnings(&json).join("\n");
+        assert_eq!(
+            said.contains("m³ of `ball`, whose lift is that of the cells, where"),
+            off,
+            "{cells}: {said}"
+        );
+    }
+}

@@ -227,7 +227,7 @@ fn node(cell: u32, sources: &[Source; Q], body: u8) -> Option<Node> {
     let mut weight = [0.0; Q];
     let mut touches = false;
     for (i, source) in sources.iter().enumerate().skip(1) {
-        if let Source::Wall { velocity, body: of } = source
+        if let Source::Wall { velocity, body: of, .. } = source
             && *of == body
         {
             let out = opposite(i);

@@ -3,6 +3,7 @@
 
 use super::bounce_back::surface_velocity;
 use super::flat_wall::FlatWall;
+use super::owners::owners;
 use crate::lattice::equilibrium::dot;
 use crate::lattice::{C, Q, W, direction, opposite};
 use crate::setup::course::Factors;
@@ -24,18 +25,25 @@ pub enum Source {
         velocity: [f64; 3],
         /// 0: a face of the box; s > 0: the solid `solid_motion[s − 1]`.
         body: u8,
+        /// Whether others own part of what comes back, see [`owners`].
+        edge: bool,
     },
     /// An open face; only with a free surface.
     Open,
 }
 
 impl Source {
-    /// Number of the solid that bounces back, if it is one.
+    /// Whose load each component of what comes back along the link to a wall counts into \[C7\]; `None` where no
+    /// solid takes part.
+    ///
+    /// # Arguments
+    /// `at`: the cell; `i`: arriving direction.
     #[inline]
     #[must_use]
-    pub(crate) const fn body(&self) -> Option<u8> {
+    pub(crate) fn owners(&self, setup: &Setup, at: [usize; 3], i: usize) -> Option<[[u8; 2]; 3]> {
         match *self {
-            Self::Wall { body, .. } if body != 0 => Some(body),
+            Self::Wall { body, edge: true, .. } => Some(owners(setup, at, i, body)),
+            Self::Wall { body, .. } if body != 0 => Some([[body; 2]; 3]),
             _ => None,
         }
     }
@@ -240,7 +248,7 @@ pub(crate) fn boundary_cell_at(setup: &Setup, factors: &Factors, cell: usize) ->
     let mut walls = 0;
     for i in 1..Q {
         let (mut source, plain) = resolve_at(setup, factors, at, i);
-        if let (Some(cut), Source::Wall { velocity, body }) = (cut, &mut source)
+        if let (Some(cut), Source::Wall { velocity, body, .. }) = (cut, &mut source)
             && *body > 0
         {
             let there = solid_velocity(setup, at, i, *body, setup.cuts[cut].shares[opposite(i)]);
@@ -309,7 +317,8 @@ fn resolve_at(setup: &Setup, factors: &Factors, at: [usize; 3], i: usize) -> (So
         }
     }
     if let Some(u) = wall {
-        return (Source::Wall { velocity: u, body: 0 }, false);
+        let edge = owners(setup, at, i, 0) != [[0; 2]; 3];
+        return (Source::Wall { velocity: u, body: 0, edge }, false);
     }
     if open {
         return (Source::Open, false);
@@ -318,7 +327,8 @@ fn resolve_at(setup: &Setup, factors: &Factors, at: [usize; 3], i: usize) -> (So
     if setup.is_solid(cell) {
         let body = setup.solids[cell];
         let velocity = scaled(solid_velocity(setup, at, i, body, 0.5), factors.solid(body));
-        return (Source::Wall { velocity, body }, false);
+        let edge = owners(setup, at, i, body) != [[body; 2]; 3];
+        return (Source::Wall { velocity, body, edge }, false);
     }
     let direction = direction(c).unwrap_or(0) as u8;
     (Source::Cell { cell: cell as u32, direction }, ordinary)

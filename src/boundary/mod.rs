@@ -5,6 +5,7 @@ pub mod cut;
 pub mod flat_wall;
 pub(crate) mod hand_over;
 pub mod links;
+pub(crate) mod owners;
 mod surface_graph;
 pub mod wall_law;
 pub mod wall_slip;

@@ -8,6 +8,7 @@ mod polygon;
 mod row;
 mod samples;
 mod shape;
+mod volume;
 
 pub(crate) use beside::{Body, drawn};
 pub use heightfield::Heightfield;

@@ -57,7 +57,7 @@ fn sides(axis: Axis, points: &[[f64; 2]], planes: &mut [Vec<f64>; 3]) {
 }
 
 /// Positions in a cell along one axis, and the share of it that each stands for.
-type Line = Vec<(f64, f64)>;
+pub(super) type Line = Vec<(f64, f64)>;
 
 /// The sample points of a cell: where no plane cuts it at the same places in every cell and symmetric about its centre, 8
 /// along each axis; between planes in proportion, so that what ends at one is had exactly.
@@ -94,7 +94,8 @@ impl Samples {
     }
 }
 
-fn line(planes: &[f64], low: f64, dx: f64, count: usize) -> Line {
+/// The points of a cell along an axis, `count` and more where planes cut it.
+pub(super) fn line(planes: &[f64], low: f64, dx: f64, count: usize) -> Line {
     let mut cuts: Vec<f64> = planes.iter().map(|plane| (plane - low) / dx).collect();
     cuts.retain(|&cut| cut > SAME && cut < 1.0 - SAME);
     cuts.sort_by(f64::total_cmp);

@@ -176,13 +176,15 @@ pub enum Warning {
     },
     /// Another volume than drawn.
     #[error(
-        "the cells hold {} m³ of fluid where {} m³ are drawn ({:+.1} %): a cell is solid or open as a whole; a finer spacing \
+        "the cells hold {} m³ of {what} where {} m³ are drawn ({:+.1} %): a cell is solid or open as a whole; a finer spacing \
          brings both together",
         short(*volume_m3),
         short(*drawn_m3),
         100.0 * (volume_m3 / drawn_m3 - 1.0)
     )]
     OtherVolume {
+        /// Fluid or solid.
+        what: String,
         /// In the cells, m³.
         volume_m3: f64,
         /// As drawn, m³.

@@ -87,7 +87,7 @@ fn of_the_surface(n: &Numbers) -> Vec<Warning> {
     holding([
         (
             (volume_m3 - drawn_m3).abs() > OTHER_VOLUME * drawn_m3,
-            Warning::OtherVolume { volume_m3, drawn_m3 },
+            Warning::OtherVolume { what: "fluid".to_owned(), volume_m3, drawn_m3 },
         ),
         (depth < 4.0, Warning::Shallow { cells: depth }),
         (at_rest < 4.0, Warning::ThinDeposit { cells: at_rest }),

@@ -68,7 +68,7 @@ impl Carrying<'_> {
                 let along = ((off[0] * normal[0] + off[1] * normal[1]) + off[2] * normal[2]) / square;
                 let brought = normal.map(|n| along * n);
                 let arm = at.map(|x| x / count);
-                load.add(&Pull { i: first, brought, share: 0.0, arm });
+                load.add(&Pull { i: first, brought, share: 0.0 }, arm);
             }
         }
     }
@@ -112,7 +112,7 @@ mod tests {
         for i in (1..Q).filter(|&i| C[i][0] < 0) {
             let both = arrived[i] + after[opposite(i)];
             let brought = C[i].map(|c| f64::from(c) * both);
-            entries.loads[0].add(&Pull { i, brought, share: 0.0, arm: [0.0; 3] });
+            entries.loads[0].add(&Pull { i, brought, share: 0.0 }, [0.0; 3]);
         }
         carrying.enter(&mut entries, |_, _| [0.0; 3]);
         let mut load = Load::default();

@@ -4,7 +4,8 @@ use crate::boundary::hand_over::HandOver;
 use crate::boundary::links::Source;
 use crate::free_surface::ledger::{Sum, VectorSum};
 use crate::lattice::C;
-use crate::solver::loads::{LoadSums, Pull};
+use crate::setup::Setup;
+use crate::solver::loads::{LoadSums, Pull, book_pull, owned};
 use crate::solver::run::{Ledger, Load};
 use crate::state::state;
 
@@ -95,8 +96,8 @@ pub(crate) struct Crossing {
     pub share: f64,
     /// Whether the cell is liquid.
     pub liquid: bool,
-    /// Middle of the link less the centre of the solid that it leads to, for its torque; any number elsewhere.
-    pub arm: [f64; 3],
+    /// Cell.
+    pub at: [usize; 3],
 }
 
 /// What the links of one cell brought in, added up in the order of the directions.
@@ -113,8 +114,15 @@ pub(crate) struct CellEntries {
 impl CellEntries {
     /// Books one link. `gas`: whether the cell at the other end holds no fluid.
     #[inline]
-    pub(crate) fn link(&mut self, crossing: &Crossing, source: &Source, gas: bool, entries: &mut Entries) {
-        let Crossing { i, leaving, arrived, share, liquid, arm } = *crossing;
+    pub(crate) fn link(
+        &mut self,
+        setup: &Setup,
+        crossing: &Crossing,
+        source: &Source,
+        gas: bool,
+        entries: &mut Entries,
+    ) {
+        let Crossing { i, leaving, arrived, share, liquid, at } = *crossing;
         // Arrives with c_i f_i, left with −c_i f_ī.
         let brought = C[i].map(|c| f64::from(c) * (arrived + leaving));
         match *source {
@@ -136,18 +144,14 @@ impl CellEntries {
                 add(&mut self.from_gas, &brought);
                 self.outflow += share * (leaving - arrived);
             }
-            Source::Wall { body, .. } => {
+            Source::Wall { .. } => {
                 if liquid {
                     self.from_walls += arrived - leaving;
                 }
-                if body == 0 {
-                    add(&mut self.from_faces, &brought);
-                } else {
-                    add(&mut self.from_solids, &brought);
-                    if let Some(load) = entries.loads.get_mut(usize::from(body) - 1) {
-                        load.add(&Pull { i, brought, share, arm });
-                    }
-                }
+                let owners = source.owners(setup, at, i).unwrap_or_default();
+                add(&mut self.from_faces, &owned(&brought, &owners, |owner| owner == 0));
+                add(&mut self.from_solids, &owned(&brought, &owners, |owner| owner != 0));
+                book_pull(&mut entries.loads, setup, at, owners, &Pull { i, brought, share });
             }
         }
         self.touched = true;

@@ -23,16 +23,17 @@ pub(crate) struct Pull {
     pub brought: [f64; 3],
     /// Share of the cell that is wet.
     pub share: f64,
-    /// Middle of the link less the centre of the solid, cells.
-    pub arm: [f64; 3],
 }
 
 impl LoadSums {
     /// Adds one link: the solid gets what the fluid loses, in the middle of the link.
-    pub(crate) fn add(&mut self, pull: &Pull) {
+    ///
+    /// # Arguments
+    /// `arm`: middle of the link less the centre of the solid, cells.
+    pub(crate) fn add(&mut self, pull: &Pull, arm: [f64; 3]) {
         let force = pull.brought.map(|p| -p);
         self.force.add(&force);
-        self.torque.add(&cross(pull.arm, force));
+        self.torque.add(&cross(arm, force));
         // The wall lies along −c_i; axis links are the cell faces.
         let c = C[pull.i];
         let length: i32 = c.iter().map(|c| c * c).sum();
@@ -64,6 +65,40 @@ impl LoadSums {
     }
 }
 
+/// The part of what a link brings that counts into some of its owners; the parts of all add up exactly.
+///
+/// # Arguments
+/// `owners`: by axis, see [`crate::boundary::owners::owners`].
+pub(crate) fn owned(brought: &[f64; 3], owners: &[[u8; 2]; 3], counts: impl Fn(u8) -> bool) -> [f64; 3] {
+    std::array::from_fn(|a| match owners[a].map(&counts) {
+        [true, true] => brought[a],
+        [false, false] => 0.0,
+        _ => 0.5 * brought[a],
+    })
+}
+
+/// Adds what one link brings to the loads of the solids that own it.
+///
+/// # Arguments
+/// `owners`: as in [`owned`]; solids without sums are left out.
+pub(crate) fn book_pull(
+    loads: &mut [LoadSums],
+    setup: &Setup,
+    at: [usize; 3],
+    owners: [[u8; 2]; 3],
+    pull: &Pull,
+) {
+    let all = owners.as_flattened();
+    for (n, &body) in all.iter().enumerate() {
+        let Some(load) = usize::from(body).checked_sub(1).and_then(|k| loads.get_mut(k)) else { continue };
+        if all[..n].contains(&body) {
+            continue;
+        }
+        let own = owned(&pull.brought, &owners, |owner| owner == body);
+        load.add(&Pull { brought: own, ..*pull }, arm(setup, at, pull.i, body));
+    }
+}
+
 /// Number of solids whose loads a run records.
 #[must_use]
 pub(crate) fn recorded(setup: &Setup) -> usize {
@@ -85,9 +120,9 @@ mod tests {
     #[test]
     fn exact_force_torque_and_area_of_one_link() {
         // The solid lies at smaller x; what the fluid gets, it loses.
-        let pull = Pull { i: 1, brought: [0.5, 0.0, 0.25], share: 0.75, arm: [2.0, 3.0, -1.0] };
+        let pull = Pull { i: 1, brought: [0.5, 0.0, 0.25], share: 0.75 };
         let mut sums = LoadSums::default();
-        sums.add(&pull);
+        sums.add(&pull, [2.0, 3.0, -1.0]);
         let mut load = Load::default();
         sums.enter(&mut load);
         assert_eq!(load.force, [-0.5, 0.0, -0.25]);

@@ -23,8 +23,10 @@ pub(crate) enum Origin {
     Wall {
         /// Number of the wall velocity.
         velocity: u32,
-        /// Whose force it counts into.
+        /// What it leads to.
         body: u8,
+        /// As in [`Source::Wall`].
+        edge: bool,
     },
     /// An open face.
     Open,
@@ -198,10 +200,10 @@ impl Block {
                     }
                     Origin::Cell { cell: place, direction }
                 }
-                Source::Wall { velocity, body } => {
+                Source::Wall { velocity, body, edge } => {
                     rim.walls |= 1 << opposite(i);
                     let movers = movers(setup, layout.cell(self.origin, local), i, body);
-                    Origin::Wall { velocity: velocities.number(velocity, movers), body }
+                    Origin::Wall { velocity: velocities.number(velocity, movers), body, edge }
                 }
                 Source::Open => {
                     rim.open = true;

@@ -7,19 +7,11 @@ use super::run::FastRun;
 use super::task::Task;
 use crate::boundary::links::Source;
 use crate::lattice::{C, opposite};
-use crate::solver::loads::{LoadSums, Pull, arm};
+use crate::solver::loads::{LoadSums, Pull, book_pull};
 use crate::solver::physics::Physics;
 use crate::solver::pool::each;
 
 impl<P, E: Element> Task<'_, P, E> {
-    /// Middle of a link less the centre of the solid it leads to, where loads are recorded and it leads to one.
-    pub(super) fn arm(&self, number: usize, local: usize, i: usize, source: &Source) -> [f64; 3] {
-        match source.body().filter(|_| self.setup.loads) {
-            None => [0.0; 3],
-            Some(body) => arm(self.setup, self.layout.cell(self.blocks[number].origin, local), i, body),
-        }
-    }
-
     /// What the links of a block bring to each solid, after the collision whose populations lie in `old`.
     fn loads_of(&self, number: usize, rim: &[super::rim::Rim], solids: usize) -> Vec<LoadSums>
     where
@@ -28,16 +20,17 @@ impl<P, E: Element> Task<'_, P, E> {
         let mut sums = vec![LoadSums::default(); solids];
         let own = self.old[number].get();
         for link in &self.blocks[number].links {
-            let Origin::Wall { velocity, body } = link.from else { continue };
-            let Some(sums) = usize::from(body).checked_sub(1).and_then(|k| sums.get_mut(k)) else { continue };
+            let Origin::Wall { velocity, body, edge } = link.from else { continue };
             let (local, i) = (usize::from(link.local), usize::from(link.direction));
             let u = &self.velocities[velocity as usize];
+            let at = self.layout.cell(self.blocks[number].origin, local);
+            let source = Source::Wall { velocity: *u, body, edge };
+            let Some(owners) = source.owners(self.setup, at, i) else { continue };
             let rho = density_at_wall(self, number, local, u);
             let back = wall_link(self, number, rim, link, rho, u, body)
                 + own[index::<E>(local, opposite(i))].to_f64();
             let brought = C[i].map(|c| f64::from(c) * back);
-            let arm = arm(self.setup, self.layout.cell(self.blocks[number].origin, local), i, body);
-            sums.add(&Pull { i, brought, share: 1.0, arm });
+            book_pull(&mut sums, self.setup, at, owners, &Pull { i, brought, share: 1.0 });
         }
         sums
     }

@@ -344,7 +344,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
                 }
                 // With a surface the kinds of cells may have changed since.
                 Origin::Wall { .. } if self.surface.is_some() => self.returned(number, local, i),
-                Origin::Wall { velocity, body } => {
+                Origin::Wall { velocity, body, .. } => {
                     let u = &self.velocities.list[velocity as usize];
                     let rho = 1.0 + density_excess(&own);
                     wall_link(&task, number, &self.rim[number], link, rho, u, body)

@@ -154,7 +154,7 @@ impl<E: Element> Stage<E> {
                 Origin::Wall { .. } | Origin::Open if returned.is_some() => {
                     E::from_f64(returned.map_or(0.0, |values| values[place]))
                 }
-                Origin::Wall { velocity, body } => {
+                Origin::Wall { velocity, body, .. } => {
                     let u = &task.velocities[velocity as usize];
                     let rho = density_at_wall(task, own.number, at, u);
                     E::from_f64(wall_link(task, own.number, own.rim, link, rho, u, body))

@@ -3,7 +3,7 @@
 use super::run::PlainRun;
 use super::surface::SurfacePhysics;
 use crate::lattice::{C, Q, opposite};
-use crate::solver::loads::{LoadSums, Pull, arm};
+use crate::solver::loads::{LoadSums, Pull, book_pull};
 use crate::solver::physics::Physics;
 
 impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
@@ -17,13 +17,10 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             let cell = record.cell as usize;
             let at = self.setup.coordinates(cell);
             for i in 1..Q {
-                let Some(body) = record.sources[i].body() else { continue };
+                let Some(owners) = record.sources[i].owners(&self.setup, at, i) else { continue };
                 let back = self.f[cell][i] + self.post[cell][opposite(i)];
                 let brought = C[i].map(|c| f64::from(c) * back);
-                let arm = arm(&self.setup, at, i, body);
-                if let Some(sums) = sums.get_mut(usize::from(body) - 1) {
-                    sums.add(&Pull { i, brought, share: 1.0, arm });
-                }
+                book_pull(&mut sums, &self.setup, at, owners, &Pull { i, brought, share: 1.0 });
             }
         }
         for (load, sums) in self.loads.iter_mut().zip(&sums) {

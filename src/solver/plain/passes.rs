@@ -203,7 +203,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 return own[0];
             }
             match self.links.source_at(cell, at, i) {
-                Source::Wall { velocity, body } => {
+                Source::Wall { velocity, body, .. } => {
                     let back =
                         cut.and_then(|place| self.cuts.returned(place, opposite(i))).unwrap_or_else(|| {
                             let back = cell::wall_link(&self.physics, own, correction, i, rho, &velocity);

@@ -20,6 +20,7 @@ use crate::solver::fast::layout::NONE;
 use crate::solver::fast::links::{after, density_at_wall, open_link, wall_link};
 use crate::solver::fast::rim::Rim;
 use crate::solver::fast::task::Task;
+use crate::solver::loads::arm;
 use crate::solver::physics::Physics;
 
 /// A block while its interface cells stream.
@@ -43,17 +44,18 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         let mut links = self.block.links_of_cell(local, E::PER_LINE).iter().peekable();
         let (mut arrived, mut gained, mut apart) = (own, [0.0; Q], [0.0; Q]);
         let (mut touches, mut contact, mut booked) = (0, None, CellEntries::default());
+        let at = self.at(local);
         for i in 1..Q {
             let out = opposite(i);
             let link = links.next_if(|link| usize::from(link.direction) == i);
             let mut gas = false;
             let source = match self.end(local, i, link) {
-                End::Wall { velocity, body, link } => {
+                End::Wall { velocity, body, edge, link } => {
                     touches |= touch::WALL;
                     let u = &self.task.velocities[velocity as usize];
                     let contact = contact.get_or_insert_with(|| self.contact(local, here.fill));
                     [arrived[i], apart[i]] = self.sent_by_wall(&here, contact, link, u, body);
-                    Source::Wall { velocity: *u, body }
+                    Source::Wall { velocity: *u, body, edge }
                 }
                 End::Open(link) => {
                     arrived[i] = open_link(self.task, self.number, self.rim, link);
@@ -83,10 +85,9 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                     Source::Cell { cell: 0, direction: direction as u8 }
                 }
             };
-            let arm = self.task.arm(self.number, local, i, &source);
             let [leaving, arrived] = [own[out], arrived[i]];
-            let crossing = Crossing { i, leaving, arrived, share: here.fill, liquid: false, arm };
-            booked.link(&crossing, &source, gas, entries);
+            let crossing = Crossing { i, leaving, arrived, share: here.fill, liquid: false, at };
+            booked.link(self.task.setup, &crossing, &source, gas, entries);
         }
         booked.close(entries);
         cell.rho = 1.0 + density_excess(&arrived);
@@ -137,9 +138,8 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
             weight: self.task.force,
             ends,
         };
-        carrying.enter(entries, |i, body| {
-            self.task.arm(self.number, local, i, &Source::Wall { velocity: [0.0; 3], body })
-        });
+        let at = self.at(local);
+        carrying.enter(entries, |i, body| arm(self.task.setup, at, i, body));
     }
 
     /// What a cell exchanges with.
@@ -224,6 +224,12 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
         }
     }
 
+    /// Box coordinates of a cell.
+    #[inline]
+    fn at(&self, local: usize) -> [usize; 3] {
+        self.task.layout.cell(self.block.origin, local)
+    }
+
     /// What a cell sends in a direction.
     #[inline]
     fn sent(&self, number: u32, local: usize, direction: usize) -> f64 {
@@ -250,7 +256,7 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
                 local: cell.local as usize,
                 direction: usize::from(direction),
             },
-            Origin::Wall { velocity, body } => End::Wall { velocity, body, link },
+            Origin::Wall { velocity, body, edge } => End::Wall { velocity, body, edge, link },
             Origin::Open => End::Open(link),
         }
     }
@@ -275,14 +281,15 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
     fn book_cell(&self, local: usize, links: &[Link], returned: &mut [f64], entries: &mut Entries) {
         let own = self.task.old[self.number].get();
         let mut booked = CellEntries::default();
+        let at = self.at(local);
         for (link, back) in links.iter().zip(returned) {
             let i = usize::from(link.direction);
             let (arrived, source) = match self.end(local, i, Some(link)) {
-                End::Wall { velocity, body, link } => {
+                End::Wall { velocity, body, edge, link } => {
                     let u = &self.task.velocities[velocity as usize];
                     let rho = density_at_wall(self.task, self.number, local, u);
                     let arrived = wall_link(self.task, self.number, self.rim, link, rho, u, body);
-                    (arrived, Source::Wall { velocity: *u, body })
+                    (arrived, Source::Wall { velocity: *u, body, edge })
                 }
                 End::Open(link) => (open_link(self.task, self.number, self.rim, link), Source::Open),
                 // A liquid cell touches no gas.
@@ -299,9 +306,8 @@ impl<P: Physics, E: Element> Streaming<'_, P, E> {
             };
             *back = arrived;
             let leaving = own[index::<E>(local, opposite(i))].to_f64();
-            let arm = self.task.arm(self.number, local, i, &source);
-            let crossing = Crossing { i, leaving, arrived, share: 1.0, liquid: true, arm };
-            booked.link(&crossing, &source, false, entries);
+            let crossing = Crossing { i, leaving, arrived, share: 1.0, liquid: true, at };
+            booked.link(self.task.setup, &crossing, &source, false, entries);
         }
         booked.close(entries);
     }
@@ -329,6 +335,6 @@ impl Here<'_> {
 /// The other end of a link.
 enum End<'l> {
     Cell { number: u32, local: usize, direction: usize },
-    Wall { velocity: u32, body: u8, link: &'l Link },
+    Wall { velocity: u32, body: u8, edge: bool, link: &'l Link },
     Open(&'l Link),
 }

@@ -77,9 +77,9 @@ impl<P: Physics, S: SurfacePhysics> Wet<'_, P, S> {
                     arrived: self.f[cell][i],
                     share: if liquid { 1.0 } else { surface.fill[cell] },
                     liquid,
-                    arm: source.body().map_or([0.0; 3], |body| arm(self.setup, at, i, body)),
+                    at,
                 };
-                own.link(&crossing, &source, gas, &mut entries);
+                own.link(self.setup, &crossing, &source, gas, &mut entries);
             }
             own.close(&mut entries);
             if !liquid {

@@ -11,7 +11,7 @@ use lahar::solver::run::{Backend, Run};
 const GRAVITY: f64 = 1e-5;
 
 /// Puts solids into a box: `body` is 0 for fluid, else the number of the solid.
-fn with_solids(mut setup: Setup, body: impl Fn([usize; 3]) -> u8) -> Setup {
+pub(super) fn with_solids(mut setup: Setup, body: impl Fn([usize; 3]) -> u8) -> Setup {
     setup.solids = (0..setup.cells()).map(|cell| body(setup.coordinates(cell))).collect();
     let bodies = setup.solids.iter().copied().max().unwrap_or(0);
     setup.solid_motion = vec![SolidMotion::default(); usize::from(bodies)];

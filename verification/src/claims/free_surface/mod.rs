@@ -8,6 +8,7 @@ mod dam;
 mod drop;
 mod heap;
 mod impact;
+mod joints;
 mod loads;
 mod mutants;
 mod pool;
@@ -53,6 +54,7 @@ pub static STUDY: Study = Study {
         symmetry::HALF,
         loads::BUOYANCY,
         loads::WALL,
+        joints::JOINTS,
         impact::IMPULSE,
         impact::WETTED,
         waves::SPEED,
