@@ -247,11 +247,11 @@ fn closed_and_full_outputs_never_abort() {
 /// A file larger than the process may write stands for a disk that is full.
 #[test]
 fn what_fits_is_written_when_a_file_does_not() {
-    let (path, out) = scene("full", FILM);
+    let (path, out) = scene("full", &FILM.replace("0.028]", "0.08]"));
     let (program, path) = (env!("CARGO_BIN_EXE_lahar"), path.display());
-    // Blocks of 512 bytes: fields of 28 cells take more than 4 kB, the summary less.
+    // Blocks of 512 bytes: fields of 80 cells take more than 8 kB, plan and summary less.
     let output =
-        run(&format!("ulimit -f 8; exec {program} run {path} --out {} --until 0.001", out.display()));
+        run(&format!("ulimit -f 16; exec {program} run {path} --out {} --until 0.001", out.display()));
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(4), "{message}");
     assert!(message.contains("error: cannot write ") && message.contains("fields_000000.vti"), "{message}");

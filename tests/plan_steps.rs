@@ -2,15 +2,12 @@
 //! accepted.
 
 mod common;
-mod program;
 
 use std::path::Path;
 
 use common::Numbers;
-use lahar::plan::target::{Answer, Target};
 use lahar::plan::{Plan, PlanProblem, StepRule, Way, Ways};
 use lahar::scene::{self, Scene};
-use program::root;
 use serde_json::{Value, json};
 
 fn scene(json: &Value) -> Scene {
@@ -223,42 +220,6 @@ fn pool_and_dam_of_thin_fluid_have_a_plan() {
             }
         }
         assert_eq!(last, StepRule::Admissible, "the last that has a plan was searched");
-    }
-}
-
-/// What `--target-error` recommends has a plan when it is put into the scene.
-#[test]
-fn recommendations_have_plans() {
-    for (name, target) in [
-        ("verify/channel_bingham", "1%"),
-        ("verify/channel_newtonian", "1e-4"),
-        ("verify/film_herschel_bulkley", "1%"),
-        ("verify/taylor_green_3d", "1%"),
-    ] {
-        let path = root().join(format!("scenes/{name}.json"));
-        let scene = scene::load_flow(&path).unwrap_or_else(|error| panic!("{error}"));
-        let plan = Plan::with_memory(&scene, None).expect("a plan");
-        let target: Target = target.parse().expect("a target");
-        let quote = lahar::plan::target::quote(&scene, &plan, target).expect("a table");
-        let Answer::Covered(covered) = quote.answer else { panic!("{name} is in the table") };
-        let advice = covered.advice;
-        let mut json: Value =
-            serde_json::from_str(&std::fs::read_to_string(&path).expect("text")).expect("JSON");
-        let old = scene.domain.spacing_m;
-        json["domain"]["spacing_m"] = json!(advice.spacing_m);
-        for a in 0..3 {
-            if (scene.domain.size_m[a] / old).round() == 1.0 {
-                json["domain"]["size_m"][a] = json!(advice.spacing_m);
-            }
-        }
-        json["numerics"] = json!({
-            "collision": {"operator": advice.operator},
-            "time_step_s": advice.time_step_s,
-        });
-        if let Some(rule) = advice.wall_rule {
-            json["numerics"]["wall_rule"] = json!(rule);
-        }
-        assert_eq!(has_a_plan(&json), Ok(()), "{name}: {json}");
     }
 }
 

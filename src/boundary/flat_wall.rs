@@ -10,6 +10,8 @@ pub struct FlatWall {
     axis: u8,
     /// Whether it lies at the high side.
     high: bool,
+    /// The link straight into it.
+    normal: u8,
     /// For each axis along it the oblique links into it, that of the positive sense first.
     oblique: [[u8; 2]; 2],
 }
@@ -29,7 +31,8 @@ impl FlatWall {
             };
             [link(1), link(-1)]
         };
-        Some(Self { axis: axis as u8, high: C[first][axis] > 0, oblique: [towards(a), towards(b)] })
+        let normal = first as u8;
+        Some(Self { axis: axis as u8, high: C[first][axis] > 0, normal, oblique: [towards(a), towards(b)] })
     }
 
     /// The two axes along the wall.
@@ -62,6 +65,19 @@ impl FlatWall {
         let axis = usize::from(self.axis);
         let (qa, qb) = (q[pair(axis, a)], q[pair(axis, b)]);
         if self.high { [qa, qb] } else { [-qa, -qb] }
+    }
+
+    /// Adds to what the wall takes from the populations that leave: Δ_a of each of both oblique links along the axis a, and
+    /// −2 (Δ_1 + Δ_2) of the link straight into it. No mass and no momentum is exchanged; Σ c_a² changes by 2 Δ_a.
+    #[inline(always)]
+    pub fn add_third<L: Lane>(self, taken: &mut [L; Q], delta: &[L; 2]) {
+        for (pair, delta) in self.oblique.iter().zip(delta) {
+            for &i in pair {
+                taken[usize::from(i)] = taken[usize::from(i)] + *delta;
+            }
+        }
+        let normal = usize::from(self.normal);
+        taken[normal] = taken[normal] - L::splat(2.0) * (delta[0] + delta[1]);
     }
 
     /// Σ c_i x_i over the wall's links, the part along it.

@@ -25,7 +25,7 @@ pub enum Source {
         velocity: [f64; 3],
         /// 0: a face of the box; s > 0: the solid `solid_motion[s − 1]`.
         body: u8,
-        /// Whether others own part of what comes back, see [`owners`].
+        /// Whether others own part of what comes back, \[C7\].
         edge: bool,
     },
     /// An open face; only with a free surface.

@@ -11,6 +11,9 @@ use crate::scene::force::norm;
 use crate::setup::{Setup, WallRule, YieldTreatment};
 use crate::units::Units;
 
+/// Depth of a film, cells, below which it is not resolved.
+pub(super) const SHALLOW: f64 = 4.0;
+
 /// What they follow from.
 pub(super) struct Basis<'a> {
     pub facts: &'a Facts<'a>,
@@ -31,7 +34,7 @@ pub(super) fn arrest_thickness(basis: &Basis) -> Option<f64> {
 }
 
 /// The force along the bed, N/m³; `None` without a free surface.
-fn along_bed(basis: &Basis) -> Option<f64> {
+pub(super) fn along_bed(basis: &Basis) -> Option<f64> {
     let mut force = basis.facts.forces.extremes[0];
     force[basis.pool?.up.index()] = 0.0;
     Some(norm(force))
@@ -86,7 +89,10 @@ pub(super) fn sheared_layer(basis: &Basis) -> Option<Layer> {
         return None;
     }
     let deep = match basis.pool {
-        Some(pool) if pool.level => basis.units.length_to_lattice(pool.depth),
+        // The rows of walls have no shallower films; what is expected of these has rows of its own.
+        Some(pool) if pool.level && basis.units.length_to_lattice(pool.depth) >= SHALLOW => {
+            basis.units.length_to_lattice(pool.depth)
+        }
         Some(_) => return None,
         None => 0.5 * basis.gap,
     };
@@ -108,7 +114,7 @@ pub(super) fn push(basis: &Basis) -> Option<f64> {
 }
 
 /// The driving force along axes that fluid can flow along, N/m³.
-fn along_walls(basis: &Basis) -> f64 {
+pub(super) fn along_walls(basis: &Basis) -> f64 {
     let force = basis.facts.forces.driving_extremes[0];
     norm(std::array::from_fn(|a| if basis.facts.closed[a] { 0.0 } else { force[a] }))
 }

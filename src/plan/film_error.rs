@@ -19,13 +19,13 @@ pub(super) fn film_error(depth: f64) -> String {
     if depth < 1.0 {
         let times = short((ROW / depth * 10.0).round() / 10.0);
         format!(
-            "films of less than one are a row of partly filled cells; their mean speed is {times} times the right one (τ ≤ 1)"
+            "Newtonian films of less than one are a row of partly filled cells; their mean speed is {times} times the right one (τ ≤ 1)"
         )
     } else if depth < 2.0 {
-        "films of 1 to 2 cells are up to 12 % too fast in the mean and 25 % too slow at the surface (τ ≤ 1; 19 and 43 % at τ = 2)"
+        "Newtonian films of 1 to 2 cells are up to 12 % too fast in the mean and 25 % too slow at the surface (τ ≤ 1; 19 and 43 % at τ = 2)"
             .to_owned()
     } else {
-        "films of 2 to 4 cells are off by up to 3 % in the mean and 7 % at the surface (τ ≤ 1; 10 % at τ = 2)"
+        "Newtonian films of 2 to 4 cells are off by up to 3 % in the mean and 7 % at the surface (τ ≤ 1; 10 % at τ = 2)"
             .to_owned()
     }
 }

@@ -4,6 +4,8 @@ use super::cells::Cells;
 use super::facts::Facts;
 use super::lower::operator;
 use super::numbers::Numbers;
+use super::surface::Pool;
+use super::text::short;
 use crate::plan::work::{Case, Operator, Scheme, Walls};
 use crate::rheology::Law;
 use crate::scene::{BodyForce, Boundary, InitialVelocity, Operator as SceneOperator, YieldChoice};
@@ -41,14 +43,19 @@ fn index_difference(law: &Law, case: Case) -> Option<String> {
     }
 }
 
-/// The nearest flow, the cells that count, and how the scene differs; or why there is none.
-pub(super) fn case_of(
-    facts: &Facts,
-    numbers: &Numbers,
-    cells: &Cells,
-) -> Result<(Case, f64, Vec<String>), String> {
+/// The nearest flow of the table.
+pub(super) struct Nearest {
+    pub case: Case,
+    /// Cells that count.
+    pub along: f64,
+    /// How it differs from the scene, where errors are alike nevertheless.
+    pub differences: Vec<String>,
+}
+
+/// The nearest flow; why there is none, or why its errors are not those of the scene.
+pub(super) fn case_of(facts: &Facts, numbers: &Numbers, cells: &Cells) -> Result<Nearest, String> {
     let scene = facts.scene;
-    let mut differences = Vec::new();
+    let (mut differences, mut beyond) = (Vec::new(), Vec::new());
     let fluid = fluid(&facts.laws[0])?;
     if scene.grains.is_some() {
         return Err("the scene has grains, and no flow of the table".to_owned());
@@ -65,21 +72,25 @@ pub(super) fn case_of(
         return Err("the force changes with time, and in no flow of the table".to_owned());
     }
     let (case, along) = if let Some(depth) = numbers.depth_cells {
-        (surface_case(facts, cells, fluid, &mut differences)?, depth)
+        (surface_case(facts, cells, fluid, &mut beyond)?, depth)
     } else if numbers.gap_cells.is_finite() {
-        (channel_case(facts, fluid, &mut differences)?, numbers.gap_cells)
+        (channel_case(facts, fluid)?, numbers.gap_cells)
     } else {
         (Case::Vortex, wave(facts, numbers, fluid, &mut differences)?)
     };
-    let index = index_difference(&facts.laws[0], case);
-    Ok((case, along, index.into_iter().chain(differences).collect()))
+    beyond.extend(index_difference(&facts.laws[0], case));
+    if !beyond.is_empty() {
+        let (name, but) = (case.name(), beyond.join(", and "));
+        return Err(format!("outside of the table: its nearest flow is `{name}`, but {but}"));
+    }
+    Ok(Nearest { case, along, differences })
 }
 
 fn surface_case(
     facts: &Facts,
     cells: &Cells,
     fluid: Fluid,
-    differences: &mut Vec<String>,
+    beyond: &mut Vec<String>,
 ) -> Result<Case, String> {
     let (scene, closed, force) = (facts.scene, facts.closed, facts.forces.extremes[0]);
     let Some(pool) = &cells.pool else { return Err("the scene has no fluid".to_owned()) };
@@ -91,6 +102,10 @@ fn surface_case(
         if !(0..3).any(along) {
             return Err("nothing drives the fluid, which lies level".to_owned());
         }
+        let walls = |a: usize| a != pool.up.index() && facts.faces[a].contains(&Boundary::NoSlip);
+        if (0..3).any(walls) {
+            beyond.push("it has no walls beside it".to_owned());
+        }
         return Ok(match fluid {
             Fluid::Newtonian => Case::FilmNewtonian,
             Fluid::Bingham => Case::FilmBingham,
@@ -98,22 +113,57 @@ fn surface_case(
         });
     }
     if !scene.solids.is_empty() {
-        differences.push("it has no solids".to_owned());
+        beyond.push("it has no solids".to_owned());
     }
     if (0..3).any(along) {
-        differences.push("its floor is horizontal".to_owned());
+        beyond.push("its floor is horizontal".to_owned());
     }
+    beyond.extend(shape_difference(pool, fluid));
+    beyond.extend(yield_difference(facts, pool));
     Ok(match fluid {
         Fluid::Newtonian => Case::DamBreak,
         Fluid::Bingham => Case::Slump,
         Fluid::HerschelBulkley => {
-            differences.push("its fluid is a Bingham fluid".to_owned());
+            beyond.push("its fluid is a Bingham fluid".to_owned());
             Case::Slump
         }
     })
 }
 
-fn channel_case(facts: &Facts, fluid: Fluid, differences: &mut Vec<String>) -> Result<Case, String> {
+/// Length over height of the block of the table's dam break, and diameter over height of its heap.
+const LENGTHS: [f64; 2] = [4.0, 7.0];
+/// σ0/(ρgH) of the heap.
+const YIELD: f64 = 0.025;
+/// Factor within which a scene is like the table's flow: the error of a spread goes with the cells that it is deep at the end,
+/// which both numbers decide.
+const ALIKE: f64 = 1.5;
+
+fn alike(a: f64, b: f64) -> bool {
+    (1.0 / ALIKE..=ALIKE).contains(&(a / b))
+}
+
+/// How the proportions of what is let go differ from those of the table.
+fn shape_difference(pool: &Pool, fluid: Fluid) -> Option<String> {
+    let [dam, heap] = LENGTHS;
+    let wanted = if fluid == Fluid::Newtonian { dam } else { heap };
+    let longest = (0..3).filter(|&a| a != pool.up.index()).map(|a| pool.runs[a]).fold(0.0, f64::max);
+    // A quarter or half of it may stand at mirrors.
+    let found = [1.0, 2.0].map(|whole| whole * longest / pool.depth);
+    let differs = !found.iter().any(|&found| alike(found, wanted));
+    let (longest, wanted) = (short(found[0]), short(wanted));
+    differs.then(|| format!("it is {wanted} times as long as high, not {longest}"))
+}
+
+/// How the yield stress differs from that of the table's heap.
+fn yield_difference(facts: &Facts, pool: &Pool) -> Option<String> {
+    let stress = facts.curve().plastic_stress();
+    let weight = facts.forces.extremes[0][pool.up.index()].abs() * pool.depth;
+    let found = stress / weight;
+    let differs = stress > 0.0 && !alike(found, YIELD);
+    differs.then(|| format!("its yield stress is {YIELD} of ρgH, not {}", short(found)))
+}
+
+fn channel_case(facts: &Facts, fluid: Fluid) -> Result<Case, String> {
     let (closed, force) = (facts.closed, facts.forces.extremes[0]);
     if !facts.scene.solids.is_empty() {
         return Err("the box has solids inside, the channels of the table plane walls only".to_owned());
@@ -121,9 +171,6 @@ fn channel_case(facts: &Facts, fluid: Fluid, differences: &mut Vec<String>) -> R
     let walls = facts.faces.iter().filter(|faces| faces.contains(&Boundary::NoSlip));
     if walls.count() > 1 {
         return Err("walls along two axes make a duct, and the table has plane channels".to_owned());
-    }
-    if facts.faces.iter().flatten().any(|b| *b == Boundary::FreeSlip) {
-        differences.push("it has no mirror plane".to_owned());
     }
     if !(0..3).any(|a| !closed[a] && force[a] != 0.0) {
         return Err("no force drives the fluid along the walls".to_owned());

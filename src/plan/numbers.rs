@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::cost::CELL_UPDATES_PER_SECOND;
 use super::coupled::CoupledNumbers;
 use super::disk::Files;
+use super::expected::{self, Expectation};
 use super::figures::{Basis, arrest_thickness, plug_slip, push, rounding_floor, sheared_layer};
 use super::judge::Judged;
 use super::memory::{Item, at_most, items};
@@ -87,6 +88,8 @@ pub struct Numbers {
     pub plug_slip_m: f64,
     /// Error to expect of plane walls along which a force drives the fluid; `null` in any other flow.
     pub wall_error: Option<Expected>,
+    /// Errors to expect of the whole flow, by the random scenes most like it.
+    pub expected: Expectation,
     /// Share of the expected speed that a step of the force along walls adds; `null` without walls.
     pub push_per_step: Option<f64>,
     /// Bytes of each feature.
@@ -144,7 +147,6 @@ pub(super) fn numbers(given: &Given) -> Numbers {
     let stable_speed = given.judged.stable_speed();
     let slip = plug_slip(basis);
     let (memory, bytes) = counted(setup, given.layout);
-    let bytes_at_most = at_most(setup, given.layout, &memory);
     let cell_updates = given.fluid_cells as f64 * *steps as f64;
     let (viscous_stress, plastic_stress) = (curve.viscous_stress(u / length), curve.plastic_stress());
     Numbers {
@@ -181,11 +183,12 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         plug_slip_m_per_s: slip,
         plug_slip_m: slip * scene.stop.end_time_s,
         wall_error: wall_error(basis),
+        expected: Expectation::of(expected::of_flow(basis, tau_plastic)),
         push_per_step: push(basis),
+        bytes_at_most: at_most(setup, given.layout, &memory),
         memory,
         bytes_per_cell: bytes as f64 / cells as f64,
         bytes,
-        bytes_at_most,
         files: Vec::new(),
         passes: passes(scene, setup),
         cell_updates,

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::cost::{CELL_UPDATES_PER_SECOND, SPHERE_UPDATES_PER_SECOND, millions};
 use super::disk::total;
+use super::expected;
 use super::numbers::Numbers;
 use super::text::{human, passes, relaxation, row, short, warnings};
 
@@ -14,6 +15,7 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     time(f, n)?;
     flow(f, n)?;
     scheme(f, n)?;
+    expected::section(f, &n.expected)?;
     if let Some(grains) = &n.grains {
         super::coupled::table(f, grains)?;
     }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::expected::Interval;
+use super::swept::Swept;
 use super::target::{Answer, Covered, Quote};
 use super::text::{row, short, significant};
 
@@ -17,6 +19,7 @@ impl fmt::Display for Quote {
                     format_args!("run two spacings and compare, or see REPORT.md, Work and precision"),
                 )
             }
+            Answer::Swept(swept) => by_scenes(f, swept),
             Answer::Covered(covered) => section(f, covered),
         }
     }
@@ -29,16 +32,13 @@ fn section(f: &mut fmt::Formatter<'_>, c: &Covered) -> fmt::Result {
     }
     row(f, "error", format_args!("{}", c.error_is))?;
     let expected = match c.error_as_written {
-        Some(error) if c.extrapolated => format!("{} expected, extrapolated", percent(error)),
         Some(error) => format!("{} expected", percent(error)),
-        None => "this scheme is not in the table".to_owned(),
+        None => "outside of the table".to_owned(),
     };
     row(f, "as written", format_args!("{} {}: {expected}", short(c.cells), c.cells_are))?;
     let a = &c.advice;
     let what = if c.reached { "recommended" } else { "not reached; most exact" };
-    // All digits: edges are whole multiples of it.
-    let spacing = significant(a.spacing_m);
-    row(f, what, format_args!("{} {}: a spacing of {spacing} m", short(a.cells), c.cells_are))?;
+    row(f, what, format_args!("{} {}: {}", short(a.cells), c.cells_are, spacing(a.spacing_m, a.size_m)))?;
     let walls = a.wall_rule.map_or_else(String::new, |rule| format!(", `{rule}` walls"));
     row(f, "scheme", format_args!("`{}`{walls}", a.operator))?;
     let step = a.time_step_s.map_or_else(
@@ -53,6 +53,7 @@ fn section(f: &mut fmt::Formatter<'_>, c: &Covered) -> fmt::Result {
     );
     row(f, "time step", format_args!("{step}"))?;
     row(f, "error in the table", format_args!("{}", percent(a.error)))?;
+    intervals(f, "error of scenes like it", &c.expected)?;
     if let Some(updates) = a.cell_updates {
         row(f, "cell updates", format_args!("{}", short(updates)))?;
     }
@@ -67,6 +68,31 @@ fn section(f: &mut fmt::Formatter<'_>, c: &Covered) -> fmt::Result {
                 short(ns)
             ),
         )?;
+    }
+    Ok(())
+}
+
+/// What random scenes say.
+fn by_scenes(f: &mut fmt::Formatter<'_>, s: &Swept) -> fmt::Result {
+    row(f, "table of work and precision", format_args!("{}", s.why))?;
+    intervals(f, "as written", &s.as_written)?;
+    let what = if s.reached { "recommended" } else { "not reached; finest tried" };
+    row(f, what, format_args!("{}", spacing(s.spacing_m, s.size_m)))?;
+    row(f, "time step", format_args!("{} s, as `plan` chooses it", short(s.time_step_s)))?;
+    intervals(f, "error of scenes like it", &s.expected)?;
+    row(f, "cell updates", format_args!("{}", short(s.cell_updates)))
+}
+
+/// With all digits: edges are whole multiples of it.
+fn spacing(spacing_m: f64, size_m: [f64; 3]) -> String {
+    let [x, y, z] = size_m.map(significant);
+    format!("a spacing of {} m in a box of [{x}, {y}, {z}] m", significant(spacing_m))
+}
+
+fn intervals(f: &mut fmt::Formatter<'_>, name: &str, intervals: &[Interval]) -> fmt::Result {
+    for (k, interval) in intervals.iter().enumerate() {
+        let name = if k == 0 { name } else { "" };
+        row(f, name, format_args!("{} {interval}", interval.of))?;
     }
     Ok(())
 }

@@ -5,13 +5,14 @@ use std::str::FromStr;
 use serde::Serialize;
 
 use super::cells::{self, Cells};
+use super::expected::Interval;
 use super::facts::Facts;
-use super::nearest_flow::{case_of, scheme_of};
+use super::nearest_flow::{Nearest, case_of, scheme_of};
 use super::scale;
-use super::seek::gcd;
+use super::swept::{self, Swept};
 use super::time_step;
 use super::{Numbers, Plan};
-use crate::plan::work::{Advice, Case, Choice, Operator, Point, Walls, Work, predicted, recommend};
+use crate::plan::work::{Advice, Choice, Operator, Point, Walls, Work, predicted, recommend};
 use crate::scene::{Collision, Operator as SceneOperator, Scene, WallChoice, YieldChoice};
 
 /// A relative error to aim at.
@@ -81,8 +82,10 @@ pub struct Quote {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
-    /// The table does not cover the scene; why.
+    /// Nothing that was measured covers the scene; why.
     NotCovered(String),
+    /// The random scenes of the study `sweep` do, and the table of work and precision does not.
+    Swept(Box<Swept>),
     /// It does.
     Covered(Box<Covered>),
 }
@@ -100,11 +103,12 @@ pub struct Covered {
     pub differences: Vec<String>,
     /// Those cells in the scene as written.
     pub cells: f64,
-    /// Error to expect of the scene as written; `null` where its scheme is not in the table.
+    /// Error of the table for the scene as written; `null` where its scheme, its cells or its time step are not in the table.
     pub error_as_written: Option<f64>,
-    /// Whether that is an extrapolation.
-    pub extrapolated: bool,
-    /// Whether the table reaches the target; if not, `advice` is the most exact run.
+    /// Errors that random scenes like the advice had; empty where none were like it.
+    pub expected: Vec<Interval>,
+    /// Whether the target is reached in the table and, where there are any, by random scenes like the advice; if not, `advice`
+    /// is the most exact run of the table.
     pub reached: bool,
     /// What to do.
     pub advice: Recommended,
@@ -117,6 +121,8 @@ pub struct Recommended {
     pub cells: f64,
     /// Largest spacing with at least as many cells as the run of the table that divides the edges, m.
     pub spacing_m: f64,
+    /// `domain.size_m`: axes of one cell stay one cell thick, m.
+    pub size_m: [f64; 3],
     /// `numerics.collision.operator`.
     pub operator: &'static str,
     /// `numerics.wall_rule`; `null` without walls.
@@ -155,19 +161,21 @@ pub(crate) fn quote_from(work: &Work, scene: &Scene, plan: &Plan, target: Target
     let facts = Facts::of(scene);
     let cells = cells::fill(&facts);
     let answer = match case_of(&facts, &plan.numbers, &cells) {
-        Err(why) => Answer::NotCovered(why),
-        Ok((case, ..)) if target.share() < case.reference_error() => Answer::NotCovered(format!(
+        Err(why) => measured(&facts, plan, target, why),
+        Ok(Nearest { case, .. }) if target.share() < case.reference_error() => Answer::NotCovered(format!(
             "the nearest flow, {}, is compared with lubrication theory, which is itself off by up to {} %",
             case.name(),
             100.0 * case.reference_error()
         )),
-        Ok((case, along, differences)) => {
-            covered(work, &facts, plan, &cells, target, (case, along, differences)).map_or_else(
+        Ok(nearest) => {
+            let case = nearest.case;
+            let covered = covered(work, &facts, plan, &cells, target, nearest);
+            covered.map_or_else(
                 || {
-                    Answer::NotCovered(format!(
-                        "the table has no result for `{}` that this scene could be run with",
-                        case.name()
-                    ))
+                    let name = case.name();
+                    let why =
+                        format!("the table has no result for `{name}` that this scene could be run with");
+                    measured(&facts, plan, target, why)
                 },
                 |covered| Answer::Covered(Box::new(covered)),
             )
@@ -176,46 +184,58 @@ pub(crate) fn quote_from(work: &Work, scene: &Scene, plan: &Plan, target: Target
     Quote { target_error: target.share(), answer }
 }
 
+/// What random scenes say where the table does not; `why` it does not.
+fn measured(facts: &Facts, plan: &Plan, target: Target, why: String) -> Answer {
+    match swept::search(facts, &plan.numbers, target.share()) {
+        Some(swept) => Answer::Swept(Box::new(Swept { why, ..swept })),
+        None => Answer::NotCovered(why),
+    }
+}
+
 fn covered(
     work: &Work,
     facts: &Facts,
     plan: &Plan,
     cells: &Cells,
     target: Target,
-    (case, along, differences): (Case, f64, Vec<String>),
+    Nearest { case, along, differences }: Nearest,
 ) -> Option<Covered> {
     let numbers = &plan.numbers;
-    let expected = scheme_of(facts, &plan.setup, case)
-        .and_then(|scheme| predicted(work, case, scheme, numbers.tau_plastic, along));
-    let (choice, reached) = match recommend(work, case, target.share()) {
+    let error_as_written = scheme_of(facts, &plan.setup, case)
+        .and_then(|scheme| predicted(work, case, scheme, numbers.tau_plastic, along))
+        .and_then(|(error, outside)| (!outside).then_some(error));
+    let (choice, in_table) = match recommend(work, case, target.share()) {
         Advice::Reached(choice) => (choice, true),
         Advice::Missed(choice) => (choice, false),
         Advice::Empty => return None,
     };
-    let advice = recommended(work, facts, numbers, cells, &choice, along)?;
+    let wanted = if in_table { target.share() } else { f64::INFINITY };
+    let within = runnable(facts, numbers, cells, &choice, along, wanted);
+    let reached = in_table && within.is_some();
+    let (changed, found) =
+        within.or_else(|| runnable(facts, numbers, cells, &choice, along, f64::INFINITY))?;
     Some(Covered {
         nearest: case.name(),
         error_is: case.error(),
         cells_are: case.length(),
         differences,
         cells: along,
-        error_as_written: expected.map(|(error, _)| error),
-        extrapolated: expected.is_some_and(|(_, outside)| outside),
+        error_as_written,
+        expected: found.numbers.expected.errors().to_vec(),
         reached,
-        advice,
+        advice: recommended(work, numbers, &choice, along, &changed, &found),
     })
 }
 
 fn recommended(
     work: &Work,
-    facts: &Facts,
     numbers: &Numbers,
-    cells: &Cells,
     choice: &Choice,
     along: f64,
-) -> Option<Recommended> {
+    changed: &Scene,
+    plan: &Plan,
+) -> Recommended {
     let point = &choice.point;
-    let (changed, plan) = runnable(facts, numbers, cells, choice, along)?;
     let spacing = changed.domain.spacing_m;
     let dt = plan.numbers.time_step_s;
     // Axes of one cell stay one cell thick.
@@ -224,9 +244,10 @@ fn recommended(
     let updates = numbers.fluid_cells as f64 * more * (numbers.end_time_s / dt).ceil();
     let nanoseconds = choice.speed.as_ref().map(|(_, nanoseconds)| *nanoseconds);
     let measured = work.measured.as_ref().filter(|_| nanoseconds.is_some());
-    Some(Recommended {
+    Recommended {
         cells: along * numbers.spacing_m / spacing,
         spacing_m: spacing,
+        size_m: changed.domain.size_m,
         operator: match point.scheme.operator {
             Operator::CentralMoment => "central_moment",
             Operator::Trt => "trt",
@@ -246,35 +267,27 @@ fn recommended(
         hours: nanoseconds.map(|ns| 1e-9 * ns * updates / 3600.0),
         measured: measured.map(|m| m.date.clone()),
         machine: measured.map(|m| m.machine.clone()),
-    })
+    }
 }
 
 /// The scene with a choice put into it, and its plan: with at least as many cells as the choice has, of spacings that divide
-/// the edges of the box; the first that has a plan. `None` where none of the [`FINER`] coarsest has.
+/// the edges of the box; the first that has a plan, of which random scenes like it were within `wanted`. Where there are too few, one that
+/// would be like some of them is taken only if none of the [`FINER`] coarsest has better. `None` where none has a plan.
 fn runnable(
     facts: &Facts,
     numbers: &Numbers,
     cells: &Cells,
     choice: &Choice,
     along: f64,
+    wanted: f64,
 ) -> Option<(Scene, Plan)> {
     let point = &choice.point;
-    let thick: Vec<usize> = numbers.extents.into_iter().filter(|&n| n > 1).collect();
-    let common = thick.iter().copied().fold(0, gcd).max(1);
+    let common = swept::common(numbers);
     // A share of 1e-9 above a whole number is rounding.
     let least = (point.n * common as f64 / along * (1.0 - 1e-9)).ceil().max(1.0) as usize;
-    (least..least + FINER).find_map(|parts| {
-        let spacing = numbers.spacing_m * common as f64 / parts as f64;
-        let mut changed = facts.scene.clone();
-        changed.domain.spacing_m = spacing;
-        for (size, n) in changed.domain.size_m.iter_mut().zip(numbers.extents) {
-            // Axes of one cell stay one cell thick.
-            *size = if n > 1 { *size } else { spacing };
-        }
-        let total: f64 = changed.domain.size_m.iter().map(|size| size / spacing).product();
-        if total > CELLS_PLANNED {
-            return None;
-        }
+    let mut guess = None;
+    let measured = (least..least + FINER).find_map(|parts| {
+        let mut changed = swept::at(facts.scene, numbers, common, parts)?;
         put(&mut changed, point)?;
         let scales = scale::scales(facts, cells);
         let step = time_step::with_tau(&Facts::of(&changed), &scales, cells.pool.as_ref(), point.tau);
@@ -282,10 +295,17 @@ fn runnable(
         [step, None].into_iter().find_map(|step| {
             let mut tried = changed.clone();
             tried.numerics.time_step_s = step;
-            let plan = Plan::with_memory(&tried, None).ok()?;
-            Some((tried, plan))
+            let plan = Plan::new(&tried).ok()?;
+            let expected = &plan.numbers.expected;
+            let reaches = swept::reaches(expected.errors(), wanted);
+            if expected.errors().is_empty() && expected.like().is_some() && wanted.is_finite() {
+                guess = guess.take().or(Some((tried, plan)));
+                return None;
+            }
+            reaches.then_some((tried, plan))
         })
-    })
+    });
+    measured.or(guess)
 }
 
 /// Gives a scene the scheme of a run of the table.
@@ -311,8 +331,6 @@ fn put(scene: &mut Scene, point: &Point) -> Option<()> {
 
 /// Spacings tried beyond the one with the cells of the table.
 const FINER: usize = 64;
-/// Most cells of a recommendation that is planned to see whether it can be run.
-const CELLS_PLANNED: f64 = 2e7;
 
 #[cfg(test)]
 mod tests {

@@ -18,6 +18,8 @@ pub(super) const TAU: f64 = 1.0;
 const TAU_LOW: f64 = 0.55;
 /// Largest 3 g H Δt²/Δx² \[F7\].
 const COMPRESSION: f64 = 0.02;
+/// Compression worth a warning: twice what a chosen step has.
+pub(super) const COMPRESSION_MAX: f64 = 0.04;
 /// Steps per period of an oscillating force, and least number of steps of a run.
 const STEPS_PER_PERIOD: f64 = 200.0;
 

@@ -1,9 +1,9 @@
 //! The warnings of a plan for a scene with fluid.
 
-use super::figures::Basis;
+use super::figures::{Basis, SHALLOW};
 use super::holding::holding;
 use super::numbers::Numbers;
-use super::time_step::compression;
+use super::time_step::{COMPRESSION_MAX, compression};
 use super::wall_error::{ERROR_MAX, FEW_CELLS, PUSH_MAX, THIN_LAYER};
 use super::warning::Warning;
 use crate::rheology::Law;
@@ -12,9 +12,6 @@ use crate::setup::{Precision, YieldTreatment};
 
 /// Excess mass worth a warning: 0.4 % of the volume moves the front of a long thin flow by as much.
 const LEAST_EXCESS: f64 = 4e-3;
-
-/// Compression worth a warning: twice what a chosen step has.
-const COMPRESSION_MAX: f64 = 0.04;
 
 /// Difference of the volume in the cells from that drawn that is worth a warning: it moves a front by as much.
 const OTHER_VOLUME: f64 = 1e-2;
@@ -89,7 +86,7 @@ fn of_the_surface(n: &Numbers) -> Vec<Warning> {
             (volume_m3 - drawn_m3).abs() > OTHER_VOLUME * drawn_m3,
             Warning::OtherVolume { what: "fluid".to_owned(), volume_m3, drawn_m3 },
         ),
-        (depth < 4.0, Warning::Shallow { cells: depth }),
+        (depth < SHALLOW, Warning::Shallow { cells: depth }),
         (at_rest < 4.0, Warning::ThinDeposit { cells: at_rest }),
     ])
 }

@@ -185,7 +185,7 @@ pub fn flow_from_json(text: &str, file: &str, folder: &Path) -> Result<Scene, Sc
 ///
 /// # Errors
 /// As [`load_dry`].
-pub(crate) fn dry_from_json(text: &str, file: &str, folder: &Path) -> Result<dry::DryScene, SceneError> {
+pub fn dry_from_json(text: &str, file: &str, folder: &Path) -> Result<dry::DryScene, SceneError> {
     let mut scene: dry::DryScene = parse::parse(text, file)?;
     file.clone_into(&mut scene.file);
     folder.clone_into(&mut scene.folder);

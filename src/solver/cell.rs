@@ -109,18 +109,19 @@ pub(crate) fn wall_correction<L: Lane, P: Physics>(
         |i| walls >> i & 1 != 0,
     );
     if let Some(flat) = situation.flat {
-        let slip = slip_velocity(physics, flat, h, state, situation, &excess);
+        let (slip, work) = slip_velocity(physics, flat, h, state, situation, &excess);
         for i in 1..Q {
             if walls >> i & 1 != 0 {
                 correction[i] = correction[i] - physics.wall(L::zero(), i, rho, &slip);
             }
         }
+        flat.add_third(&mut correction, &work);
     }
     correction
 }
 
-/// The slip of a flat wall, along the traction \[B3\]. `excess`: by link, what the link correction
-/// takes away.
+/// The slip of a flat wall, along the traction, and by axis along it u_w times the stress at the wall, the work that a moving
+/// wall does \[B3\]. `excess`: by link, what the link correction takes away.
 #[inline(always)]
 fn slip_velocity<L: Lane, P: Physics>(
     physics: &P,
@@ -129,7 +130,7 @@ fn slip_velocity<L: Lane, P: Physics>(
     state: &State<L>,
     situation: &Situation<L>,
     excess: &[L; Q],
-) -> [L; 3] {
+) -> ([L; 3], [L; 2]) {
     let (rho, omega) = (state.m.rho, state.omega);
     let mut post = physics.collide(h, &state.m, omega);
     if situation.sourced {
@@ -158,7 +159,12 @@ fn slip_velocity<L: Lane, P: Physics>(
         squares: [state.m.square(), L::splat(9.0) * (drag[0] * drag[0] + drag[1] * drag[1])],
     };
     let slip = physics.slip(situation.fluid, &wall);
-    flat.vector(&[e[0] * slip, e[1] * slip])
+    let slips = [e[0] * slip, e[1] * slip];
+    let third = L::splat(1.0 / 3.0) * rho;
+    // The drag of the five links of a flat wall is u_w/3.
+    let part = L::splat(if physics.carries_work() { 3.0 } else { 0.0 });
+    let work = [0, 1].map(|a| (part * drag[a]) * (traction[a] - third * slips[a]));
+    (flat.vector(&slips), work)
 }
 
 /// Adds the source of \[K6\] to post-collision populations.

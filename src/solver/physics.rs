@@ -58,6 +58,9 @@ pub trait Physics: Clone + Send + Sync + 'static {
     /// passes it unchanged: −(f_i^eq − f_ī^eq) beyond second order.
     fn wall_cubic(&self, i: usize, rho: f64, u_wall: &[f64; 3]) -> f64;
 
+    /// Whether third moments rest in the frame of the fluid \[K3\], so that those of a shear flow carry u σ, the work of the stress.
+    fn carries_work(&self) -> bool;
+
     /// Odd non-equilibrium that relaxes with ω⁻ \[B3\].
     fn odd_departure<L: Lane>(&self, h: &[L; Q], m: &Moments<L>) -> [L; Q];
 
@@ -132,6 +135,11 @@ impl<R: Rheology, C: Collision> Physics for Standard<R, C> {
     #[inline(always)]
     fn wanted_odd_excess<L: Lane>(&self, omega: L) -> L {
         self.collision.wanted_odd_excess(omega)
+    }
+
+    #[inline(always)]
+    fn carries_work(&self) -> bool {
+        self.collision.has_cubic_equilibrium()
     }
 
     fn wall_cubic(&self, i: usize, rho: f64, u_wall: &[f64; 3]) -> f64 {

@@ -9,6 +9,7 @@ use crate::dem::{Dem, Integrator, Pace, Setup, Surface};
 use crate::plan::cost::SPHERE_UPDATES_PER_SECOND;
 use crate::plan::disk::Files;
 use crate::plan::drawn::odd_density;
+use crate::plan::expected::{self, Expectation};
 use crate::plan::holding::holding;
 use crate::plan::needs::Need;
 use crate::plan::warning::Warning;
@@ -71,6 +72,8 @@ pub struct GrainNumbers {
     pub overlap_limit: f64,
     /// Restitution of two largest and of two smallest grains of the first material at the design speed.
     pub restitution: [f64; 2],
+    /// Errors to expect of collisions, and of grains that slide and roll.
+    pub expected: Expectation,
     /// Name of the integrator.
     pub integrator: &'static str,
     /// What the run computes, and what it does not.
@@ -134,6 +137,7 @@ pub(super) fn numbers(
         static_overlap: static_overlap(scene, setup, volume),
         overlap_limit: setup.overlap_limit,
         restitution: [largest, least].map(|r| restitution(setup, r)),
+        expected: expectation(setup, pace, dt, least),
         integrator: integrator(setup.integrator),
         passes: Vec::new(),
         bytes: (b.len() as f64 * bytes_per_grain(members as f64 / b.len().max(1) as f64, gear)) as u64,
@@ -145,6 +149,11 @@ pub(super) fn numbers(
     n.passes = passes(setup, &n);
     n.warnings = warnings(scene, setup, &n, estimated);
     n
+}
+
+/// What to expect of contacts at a time step, s, with grains down to a radius, m.
+fn expectation(setup: &Setup, pace: &Pace, dt: f64, least: f64) -> Expectation {
+    Expectation::of(expected::of_grains(setup, pace.shortest.seconds / dt, restitution(setup, least)))
 }
 
 /// Least and largest of radii; infinite and 0 without any.

@@ -5,6 +5,7 @@ use std::fmt;
 use super::GrainNumbers;
 use crate::plan::cost::{SPHERE_UPDATES_PER_SECOND, millions};
 use crate::plan::disk::total;
+use crate::plan::expected;
 use crate::plan::text::{human, passes, row, short, warnings};
 
 pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
@@ -12,6 +13,7 @@ pub(super) fn table(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result
     grains(f, n)?;
     contacts(f, n)?;
     time(f, n)?;
+    expected::section(f, &n.expected)?;
     passes(f, &n.passes)?;
     cost(f, n)?;
     warnings(f, &n.warnings)

@@ -44,6 +44,8 @@ pub enum Mistake {
     ApparentViscosityAtWall,
     /// \[B3\] as it was until the law by stress: the slip follows the cell's own stress, explicitly.
     ExplicitWallSlip,
+    /// \[B3\] without the work of a moving wall.
+    IdleWall,
     /// \[B3\] with F − ∇p for the stress gradient of a Newtonian fluid.
     PressureDrivenSlip,
     /// 000 Eq 12: masses for fills in the wetted share.
@@ -192,6 +194,10 @@ impl Physics for Wrong {
         } else {
             bounce_back(out, i, rho, u_wall)
         }
+    }
+
+    fn carries_work(&self) -> bool {
+        self.mistake != Mistake::IdleWall && self.right.carries_work()
     }
 
     fn wall_cubic(&self, i: usize, rho: f64, u_wall: &[f64; 3]) -> f64 {

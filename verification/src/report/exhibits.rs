@@ -7,6 +7,11 @@ use crate::exhibit::{Entry, ExhibitRecord};
 use crate::figures;
 use crate::format::{significant, table};
 
+/// Most rows of a table that are printed; longer ones are for programs.
+const LONG: usize = 100;
+/// Rows that stand for a longer table.
+const FIRST: usize = 10;
+
 /// Appends an exhibit.
 pub(super) fn render(out: &mut String, caption: &str, record: &ExhibitRecord) {
     let _ = write!(out, "### {}\n\n", heading(&record.exhibit));
@@ -18,8 +23,14 @@ pub(super) fn render(out: &mut String, caption: &str, record: &ExhibitRecord) {
         paragraph(out, &format!("**{}**", escaped(&t.title)));
         let columns: Vec<String> = t.columns.iter().map(|c| escaped(c)).collect();
         let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
-        let rows: Vec<Vec<String>> = t.rows.iter().map(|r| r.iter().map(entry).collect()).collect();
+        let shown = if t.rows.len() > LONG { FIRST } else { t.rows.len() };
+        let rows: Vec<Vec<String>> = t.rows[..shown].iter().map(|r| r.iter().map(entry).collect()).collect();
         table(out, &columns, &rows);
+        if shown < t.rows.len() {
+            let (more, name) = (t.rows.len() - shown, &record.exhibit);
+            let file = format!("[{name}.json](../../golden/exhibits/{name}.json)");
+            paragraph(out, &format!("{more} more rows are in {file}."));
+        }
     }
     for note in &record.data.notes {
         paragraph(out, note);

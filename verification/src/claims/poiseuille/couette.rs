@@ -11,12 +11,12 @@ use lahar::rheology::Law;
 use lahar::setup::{Face, FlowPoint, Setup, SolidMotion};
 use lahar::solver::run::Backend;
 
-const N: usize = 16;
+pub(super) const N: usize = 16;
 const LINEAR: Reference =
     Reference { source: "u linear between the walls, σ = σ(U/H) everywhere", uncertainty: 0.0 };
 
 /// Walls moving at `low` and `high` along x, N cells apart; starts from the linear profile if asked.
-fn between_walls(law: Law, density: f64, low: f64, high: f64, developed: bool) -> Setup {
+pub(super) fn between_walls(law: Law, density: f64, low: f64, high: f64, developed: bool) -> Setup {
     let mut setup = Setup::channel(N, law, 0.0);
     setup.faces[1] = [Face::Moving([low, 0.0, 0.0]), Face::Moving([high, 0.0, 0.0])];
     setup.initial = Some(Arc::new(move |[_, j, _]| {

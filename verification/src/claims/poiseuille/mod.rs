@@ -6,6 +6,7 @@ mod couette;
 mod density;
 mod duct_waves;
 mod ducts;
+mod fast_wall;
 mod mutants;
 mod newtonian;
 mod pipes;
@@ -59,6 +60,7 @@ pub static STUDY: Study = Study {
         couette::NEWTONIAN,
         couette::ALL_LAWS,
         couette::SHEAR_RATE,
+        fast_wall::FAST_WALL,
         couette::TAYLOR,
         turning::RING,
         turning::TORQUE,

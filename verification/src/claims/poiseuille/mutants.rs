@@ -130,6 +130,7 @@ pub const MUTANTS: &[Mutant] = &[
         rung: Some(16.0),
         subject: Subject::Backend(|| Box::new(Mistaken(Mistake::ExplicitWallSlip))),
     },
+    super::fast_wall::IDLE,
     Mutant {
         id: "wall-slip-by-pressure",
         erratum: "design [B3]",

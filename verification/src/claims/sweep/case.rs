@@ -120,13 +120,19 @@ pub struct Case {
 pub const SMALL: u64 = 100;
 
 /// SplitMix64 of a counter, mapped to \[0, 1): the same on every machine, no state.
-struct Draw {
+pub struct Draw {
     number: u64,
     count: u64,
 }
 
 impl Draw {
-    fn unit(&mut self) -> f64 {
+    /// The draws of a number.
+    pub const fn new(number: u64) -> Self {
+        Self { number, count: 0 }
+    }
+
+    /// Evenly spread from 0 to 1.
+    pub fn unit(&mut self) -> f64 {
         let golden = 0x9E37_79B9_7F4A_7C15_u64;
         let mut z = (self.number << 8).wrapping_add(self.count).wrapping_add(1).wrapping_mul(golden);
         self.count += 1;
@@ -135,12 +141,13 @@ impl Draw {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    /// Evenly spread between two numbers.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
     /// Evenly spread logarithm.
-    fn ratio(&mut self, low: f64, high: f64) -> f64 {
+    pub fn ratio(&mut self, low: f64, high: f64) -> f64 {
         low * libm::pow(high / low, self.unit())
     }
 
@@ -201,7 +208,7 @@ const MANY_UPDATES: f64 = 4e7;
 impl Case {
     /// The case of a number.
     pub fn new(number: u64) -> Self {
-        let mut draw = Draw { number, count: 0 };
+        let mut draw = Draw::new(number);
         let small = number < SMALL;
         let place = draw.place();
         let [n, plug] = draw.law();

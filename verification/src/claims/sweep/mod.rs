@@ -8,6 +8,7 @@ mod judge;
 mod lattice;
 mod program;
 mod row;
+mod scenes;
 
 pub use program::main;
 
@@ -24,9 +25,13 @@ pub static STUDY: Study = Study {
             from three times its exact speed, and once with half-way walls, and has to end in one steady state near the exact \
             solution.\n\n\
             `study-sweep --count N` runs any number of further cases and `study-sweep --case K` one of them, from its number \
-            alone.",
-    claims: &[claims::WALLS],
-    exhibits: &[exhibits::ROWS],
+            alone.\n\n\
+            Random *scenes* (`--scenes N`, `--scene K`) go the way of a user's: text, plan, run. Films with a free surface from 0.4 \
+            to 24 cells, channels, walls that were set in motion or oscillate, layers, pools at rest, grains that collide, slide and \
+            roll; half of the fluids with another time step than the plan's. The plan says which error to expect, by the rows of \
+            scenes like it, and the claim holds it to that.",
+    claims: &[claims::WALLS, scenes::SCENES],
+    exhibits: &[scenes::COUNTS, scenes::ROWS, exhibits::ROWS],
     mutants: &[],
     limits: &[
         "Pipes and annuli lie in their place, turning cylinders are stairs with errors of ten per cent. In annuli whose sheared layer \

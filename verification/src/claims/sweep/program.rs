@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::case::Case;
 use super::judge::Judgement;
 use super::row::Row;
+use super::scenes;
 use crate::claim::VerifyError;
 use crate::golden::package_root;
 use crate::study;
@@ -65,6 +66,8 @@ pub fn rows_of(backend: &dyn Backend, numbers: &[u64]) -> Result<Vec<Row>, Verif
 /// Command line of the study: that of all studies, and cases beyond those of the report.
 #[derive(clap::Parser, Debug, Clone)]
 #[command(disable_version_flag = true)]
+// The flattened options have the same name.
+#[group(id = "SweepOptions")]
 pub struct Options {
     /// As every study.
     #[command(flatten)]
@@ -81,6 +84,13 @@ pub struct Options {
     /// Run one case and print everything about it.
     #[arg(long, value_name = "K")]
     pub case: Option<u64>,
+    /// Run this many random scenes from `--from` on, print those outside of what their plans say, and write all of them to
+    /// target/studies/sweep/scenes.csv.
+    #[arg(long, value_name = "N")]
+    pub scenes: Option<u64>,
+    /// Run one random scene and print it with what became of it.
+    #[arg(long, value_name = "K")]
+    pub scene: Option<u64>,
 }
 
 /// The binary.
@@ -90,10 +100,12 @@ pub fn main(backend: &dyn Backend) -> ExitCode {
         Ok(options) => options,
         Err(code) => return code,
     };
-    let extra = match (options.case, options.count) {
-        (Some(number), _) => one(backend, number),
-        (None, Some(count)) => many(backend, options.from, count, options.place.as_deref()),
-        (None, None) => return study::run(&super::STUDY, backend, &options.study),
+    let extra = match options {
+        Options { scene: Some(number), .. } => scenes::one(backend, number).map_err(Failure::from),
+        Options { scenes: Some(count), from, .. } => random_scenes(backend, from, count),
+        Options { case: Some(number), .. } => one(backend, number),
+        Options { count: Some(count), from, ref place, .. } => many(backend, from, count, place.as_deref()),
+        _ => return study::run(&super::STUDY, backend, &options.study),
     };
     match extra {
         Ok(()) => ExitCode::SUCCESS,
@@ -102,6 +114,21 @@ pub fn main(backend: &dyn Backend) -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Runs scenes and keeps their rows.
+fn random_scenes(backend: &dyn Backend, from: u64, count: u64) -> Result<(), Failure> {
+    let text = scenes::many(backend, from, count)?;
+    keep("scenes.csv", &text)
+}
+
+/// Writes a file of the study and says where.
+fn keep(name: &str, text: &str) -> Result<(), Failure> {
+    let root = package_root();
+    let path = super::STUDY.folder(&root).join(name);
+    atomic::write(&path, text.as_bytes())?;
+    println!("All rows are in {}.", path.strip_prefix(&root).unwrap_or(&path).display());
+    Ok(())
 }
 
 /// Prints a case.
@@ -150,12 +177,8 @@ fn many(backend: &dyn Backend, from: u64, count: u64, place: Option<&str>) -> Re
         text.push_str(&line);
         text.push('\n');
     }
-    let root = package_root();
-    let path = super::STUDY.folder(&root).join("rows.csv");
-    atomic::write(&path, text.as_bytes())?;
     println!("{} cases, {faulty} with faults, {silent} of them without a warning of the plan.", rows.len());
-    println!("All rows are in {}.", path.strip_prefix(&root).unwrap_or(&path).display());
-    Ok(())
+    keep("rows.csv", &text)
 }
 
 /// Why there are no rows.
