@@ -41,14 +41,10 @@ const POOL: &str = r#"{
 fn a_pool_at_rest_pushes_at_a_third_of_its_depth() {
     let all = loads("pool", POOL, &[]);
     let [face, foot, turn] = &all[..] else { panic!("{all:?}") };
-    // A sixth of the push of a cell goes over its link along x and down, that of the lowest cell to the floor: 1/(3 · 20) of
-    // the force, at no height and so without moment.
+    // The start is the discrete rest, whose linear pressure the links sum exactly: 1e-9 is far above the roundings of 200
+    // steps and far below a link of 360.
     let near = |found: f64, expected: f64, what: &str| {
-        assert!((found - expected).abs() < 0.018 * expected.abs(), "{what}: {found} {expected}");
-    };
-    // The pressure of a cell acts in its middle: at most 1/(2 · 20²).
-    let near_moment = |found: f64, expected: f64, what: &str| {
-        assert!((found - expected).abs() < 0.0015 * expected.abs(), "{what}: {found} {expected}");
+        assert!((found - expected).abs() < 1e-9 * expected.abs(), "{what}: {found} {expected}");
     };
     // ρ g h²/2 per width.
     let force = 1000.0 * 9.81 * 0.2 * 0.2 / 2.0 * 0.01;
@@ -58,8 +54,8 @@ fn a_pool_at_rest_pushes_at_a_third_of_its_depth() {
         let centre = peak.centre_of_pressure_m.expect("a centre of pressure");
         near(centre[2], 0.2 / 3.0, "h/3");
         assert!(centre[0] == 0.1 && (centre[1] - 0.005).abs() < 1e-9, "{centre:?}");
-        near_moment(peak.overturning_n_m, force * 0.2 / 3.0, "F h/3");
-        near_moment(peak.moment_n_m[1], force * 0.2 / 3.0, "the moment turns the wall over along x");
+        near(peak.overturning_n_m, force * 0.2 / 3.0, "F h/3");
+        near(peak.moment_n_m[1], force * 0.2 / 3.0, "the moment turns the wall over along x");
     }
     assert_eq!(face.load, "of fluid and grains on solid `wall`");
     assert!(
@@ -68,15 +64,66 @@ fn a_pool_at_rest_pushes_at_a_third_of_its_depth() {
     );
     // A steady load for 0.1 s.
     near(face.impulse_n_s[0], force * 0.1, "impulse");
-    near_moment(face.angular_impulse_n_m_s[1], force * 0.2 / 3.0 * 0.1, "angular impulse");
+    near(face.angular_impulse_n_m_s[1], force * 0.2 / 3.0 * 0.1, "angular impulse");
     // The middle of the foot, and the time between 100 rows in 0.1 s.
     assert_eq!((foot.about_m, foot.up), ([0.12000000000000001, 0.005, 0.0], 'z'));
     assert!((foot.window_s - 0.001).abs() < 1e-12, "{}", foot.window_s);
     // About a point above the centre of pressure the moment has the other sign; a window is one step at least.
     let peak = turn.windowed.expect("peaks").force;
     let expected = force * (0.2 / 3.0 - 0.1);
-    assert!((peak.moment_n_m[1] - expected).abs() < 0.018 * force * 0.1, "{peak:?} {expected}");
+    assert!((peak.moment_n_m[1] - expected).abs() < 1e-9 * force * 0.1, "{peak:?} {expected}");
     assert_eq!((turn.window_s, turn.impulse_n_s), (turn.sampled_every_s, face.impulse_n_s));
+}
+
+/// A tank at rest with walls all around, a slab on its floor and a shelf on the walls of its far end.
+const TANK: &str = r#"{
+    "domain": {
+        "size_m": [0.3, 0.06, 0.3], "spacing_m": 0.01,
+        "boundaries": { "x_min": "no_slip", "x_max": "no_slip", "y_min": "no_slip", "y_max": "no_slip",
+                        "z_min": "no_slip", "z_max": "open" }
+    },
+    "gravity": { "magnitude_m_per_s2": 9.81, "direction": [0, 0, -1] },
+    "fluid": {
+        "density_kg_per_m3": 1000.0,
+        "rheology": { "newtonian": { "viscosity_pa_s": 5.0 } },
+        "initial": { "fill_level": { "axis": "z", "height_m": 0.2 } }
+    },
+    "solids": [
+        { "name": "slab", "shape": { "box": { "min_m": [0, 0, 0], "max_m": [0.3, 0.06, 0.02] } } },
+        { "name": "shelf", "shape": { "box": { "min_m": [0.2, 0, 0.1], "max_m": [0.3, 0.06, 0.14] } } }
+    ],
+    "numerics": { "time_step_s": 0.0005 },
+    "stop": { "end_time_s": 0.02 },
+    "output": { "probes": [
+        { "name": "slab", "measure": { "force": { "solid": "slab", "about_m": [0, 0.03, 0.02] } } },
+        { "name": "shelf", "measure": { "force": { "solid": "shelf", "about_m": [0.2, 0.03, 0.1] } } }
+    ] }
+}"#;
+
+#[test]
+fn slabs_and_shelves_between_walls_bear_their_pressure() {
+    let all = loads("tank", TANK, &[]);
+    let [slab, shelf] = &all[..] else { panic!("{all:?}") };
+    let weight = 1000.0 * 9.81;
+    let near = |found: [f64; 3], expected: [f64; 3], part: f64, what: &str| {
+        let largest = expected.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+        for axis in 0..3 {
+            assert!((found[axis] - expected[axis]).abs() < part * largest, "{what}: {found:?} {expected:?}");
+        }
+    };
+    let peak = |load: &LoadSummary| load.windowed.expect("peaks").force;
+    // As for the pool above.
+    let (low, high) = (peak(slab), peak(shelf));
+    let pressed = -weight * 0.18 * 0.3 * 0.06;
+    near(low.force_n, [0.0, 0.0, pressed], 1e-9, "slab");
+    near(low.moment_n_m, [0.0, -0.15 * pressed, 0.0], 1e-9, "moment of the slab");
+    // A lift of the weight displaced; a push of the mean pressure, 0.08 m deep, on the front.
+    let (lift, push) = (weight * 0.04 * 0.1 * 0.06, weight * 0.08 * 0.04 * 0.06);
+    near(high.force_n, [push, 0.0, lift], 1e-9, "shelf");
+    // The push acts L²/(12 · depth) below the middle of the front, L = 0.04 m.
+    let below = 0.04 * 0.04 / (12.0 * 0.08);
+    let moment = [0.0, push * (0.02 - below) - lift * 0.05, 0.0];
+    near(high.moment_n_m, moment, 1e-9, "moment of the shelf");
 }
 
 #[test]

@@ -1,56 +1,12 @@
-//! What `plan` says about awkward scenes: each is refused, warned about, or planned, with the right words.
+//! What `plan` refuses, and what it takes: with the right words.
 
-mod program;
+mod planned;
 
 use lahar::plan::grains::GrainPlan;
-use lahar::plan::{Plan, Warning};
-use lahar::scene::{self, AnyScene};
-use program::{folder, lahar};
+use lahar::scene;
+use planned::program::{folder, lahar};
+use planned::{plan, pool, refusal, says, warnings};
 use serde_json::{Value, json};
-
-/// A pool at rest on a floor.
-fn pool() -> Value {
-    json!({
-        "domain": {"size_m": [0.4, 0.4, 0.2], "spacing_m": 0.02,
-            "boundaries": {"x_min": "no_slip", "x_max": "no_slip", "y_min": "no_slip", "y_max": "no_slip",
-                           "z_min": "no_slip", "z_max": "open"}},
-        "gravity": {"magnitude_m_per_s2": 9.81, "direction": [0, 0, -1]},
-        "fluid": {"density_kg_per_m3": 1800.0,
-            "rheology": {"bingham": {"yield_stress_pa": 20.0, "plastic_viscosity_pa_s": 5.0}},
-            "initial": {"shapes": [{"name": "mud", "shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.2, 0.4, 0.1]}}}]}},
-        "stop": {"end_time_s": 0.2}
-    })
-}
-
-fn load(json: &Value) -> Result<AnyScene, String> {
-    let folder = folder("plan_cases", &format!("{:?}", std::thread::current().id()).replace(['(', ')'], "_"));
-    let path = folder.join("case.json");
-    std::fs::write(&path, json.to_string()).expect("a written scene");
-    scene::load(&path).map_err(|error| error.to_string())
-}
-
-/// The plan, or why there is none.
-fn plan(json: &Value) -> Result<Plan, String> {
-    match load(json)? {
-        AnyScene::Flow(scene) => Plan::with_memory(&scene, None).map_err(|error| error.to_string()),
-        AnyScene::Dry(_) => panic!("a scene with fluid"),
-    }
-}
-
-fn refusal(json: &Value) -> String {
-    plan(json).err().unwrap_or_else(|| panic!("accepted: {json}"))
-}
-
-fn warnings(json: &Value) -> Vec<String> {
-    let plan = plan(json).unwrap_or_else(|message| panic!("{message}"));
-    plan.numbers.warnings.iter().map(Warning::to_string).collect()
-}
-
-fn says(text: &str, parts: &[&str]) {
-    for part in parts {
-        assert!(text.contains(part), "`{part}` in: {text}");
-    }
-}
 
 #[test]
 fn polygons_whose_edges_cross_are_refused_with_the_place() {
@@ -93,28 +49,6 @@ fn marks_of_missing_data_are_refused() {
     assert_eq!(plan(&deep).err(), None, "a shaft of 50 m is what is drawn");
 }
 
-/// Bars of 6 cm and slits of 4 cm on cells of 5 cm.
-#[test]
-fn bars_and_slits_of_another_width_are_warned_about_with_both_numbers() {
-    let bar = |k: u32| {
-        let low = 0.1 * f64::from(k);
-        json!({"box": {"min_m": [1.0, low, 0.0], "max_m": [1.1, low + 0.06, 0.6]}})
-    };
-    let mut json = pool();
-    json["domain"]["size_m"] = json!([2.0, 0.5, 0.6]);
-    json["domain"]["spacing_m"] = json!(0.05);
-    json["fluid"]["initial"]["shapes"][0]["shape"]["box"]["max_m"] = json!([0.6, 0.5, 0.4]);
-    json["solids"] = json!([{"name": "rack", "shape": {"union": (0..5).map(bar).collect::<Vec<_>>()}}]);
-    let text = warnings(&json).join("\n");
-    says(&text, &["a gap between solids is 0.04 m wide along y as drawn, and has 1 cells, 0.05 m"]);
-    says(&text, &["a solid between gaps is 0.06 m wide along y as drawn, and has 1 cells, 0.05 m"]);
-    // On cells of 2 cm both are what they are.
-    json["domain"]["spacing_m"] = json!(0.02);
-    json["domain"]["size_m"] = json!([2.0, 0.5, 0.6]);
-    let text = warnings(&json).join("\n");
-    assert!(!text.contains("as drawn, and has"), "{text}");
-}
-
 /// Beyond 45° the bed stays the bed.
 #[test]
 fn up_is_the_normal_of_the_bed_at_any_slope() {
@@ -155,17 +89,6 @@ fn solids_that_would_leave_their_place_are_refused() {
             "shape": {"box": {"min_m": [0.2, 0.1, 0.0], "max_m": [0.24, 0.3, 0.15]}}}]);
         says(&refusal(&json), &["`solids[0].velocity_m_per_s`", "`gate` would leave its place"]);
     }
-}
-
-#[test]
-fn relaxation_times_near_one_half_are_warned_about() {
-    let mut json = pool();
-    json["fluid"]["rheology"] = json!({"newtonian": {"viscosity_pa_s": 1.0}});
-    let text = warnings(&json).join("\n");
-    says(&text, &["is below 0.52", "may be stopped by the guard", "a spacing of"]);
-    let mut thickening = pool();
-    thickening["fluid"]["rheology"] = json!({"power_law": {"consistency_pa_s_n": 5.0, "flow_index": 3.0}});
-    says(&warnings(&thickening).join("\n"), &["flow index 3 vanishes where nothing is sheared"]);
 }
 
 /// Bytes and numbers of files, and the ways to have less of them.
@@ -351,67 +274,4 @@ fn unknown_words_are_answered_by_their_meaning() {
         &rename(&|json| json["solids"] = json!([{"name": "s", "mesh": {"file": "a.stl"}}])),
         &["meshes are walls of grains without fluid", "`heightfield`"],
     );
-}
-
-/// A sweep over a speed begins at 0, where a centre, a motion or a frequency says nothing yet.
-#[test]
-fn keys_without_effect_are_no_errors_at_zero() {
-    let mut json = pool();
-    json["solids"] = json!([{"name": "roller", "spin_rad_per_s": [0, 0, 0], "centre_m": [0.3, 0.2, 0.05],
-        "shape": {"cylinder": {"point_m": [0.3, 0.0, 0.05], "direction": [0, 1, 0], "radius_m": 0.05}}}]);
-    assert_eq!(plan(&json).err(), None);
-    json["solids"][0]["motion"] = json!({"oscillating": {"frequency_hz": 2.0}});
-    assert_eq!(plan(&json).err(), None);
-    json["fluid"]["body_force"] = json!({"oscillating": {
-        "mean_n_per_m3": [0, 0, 0], "amplitude_n_per_m3": [0, 0, 0], "frequency_hz": 0, "phase_rad": 0}});
-    assert_eq!(plan(&json).err(), None);
-    json["numerics"] = json!({"collision": {"operator": "bgk", "floor": 0.0}});
-    assert_eq!(plan(&json).err(), None);
-}
-
-#[test]
-fn memory_follows_the_fluid() {
-    let mut json = pool();
-    json["domain"]["size_m"] = json!([2.0, 0.4, 0.4]);
-    let numbers = plan(&json).expect("a plan").numbers;
-    let most = numbers.bytes_at_most.expect("a free surface in blocks");
-    assert!(most as f64 > 1.2 * numbers.bytes as f64, "{most} {}", numbers.bytes);
-}
-
-#[test]
-fn hidden_solids_shut_gates_and_densities_in_other_units_are_warned_about() {
-    let block = |name: &str, low: f64, high: f64, above: f64| json!({"name": name, "shape": {"box": {"min_m": [low, 0, above], "max_m": [high, 0.4, 0.2]}}});
-    let mut json = pool();
-    json["solids"] = json!([block("hidden", 0.28, 0.32, 0.04), block("gate", 0.24, 0.36, 0.028)]);
-    json["fluid"]["density_kg_per_m3"] = json!(1.8);
-    let said = warnings(&json).join("\n");
-    says(
-        &said,
-        &[
-            "`hidden` has no cell of its own",
-            "a gap between a solid and a wall is 0.028 m wide along z",
-            "1.8 kg/m³, which no",
-        ],
-    );
-    json["solids"] = json!([block("first", 0.24, 0.32, 0.04), block("second", 0.28, 0.36, 0.04)]);
-    json["output"] = json!({"probes": [{"name": "load", "measure": {"force": {"solid": "first"}}}]});
-    says(&warnings(&json).join("\n"), &["50 % of the cells of `first`"]);
-}
-
-#[test]
-fn loaded_solids_of_another_volume_than_drawn_are_warned_about() {
-    let mut json = pool();
-    let ball = json!({"sphere": {"centre_m": [0.3, 0.2, 0.1], "radius_m": 0.05}});
-    json["solids"] = json!([{"name": "ball", "shape": ball}]);
-    json["output"] = json!({"probes": [{"name": "load", "measure": {"force": {"solid": "ball"}}}]});
-    // A ball of 5 cells across has 56 or 81 cells, not 65.4; of 20 cells within 2 %.
-    for (cells, off) in [(5.0, true), (20.0, false)] {
-        json["domain"]["spacing_m"] = json!(0.1 / cells);
-        let said = warnings(&json).join("\n");
-        assert_eq!(
-            said.contains("m³ of `ball`, whose lift is that of the cells, where"),
-            off,
-            "{cells}: {said}"
-        );
-    }
 }

@@ -127,6 +127,28 @@ mod tests {
         assert_eq!(FlatWall::of(links(C[1]) | links(C[2])), None);
     }
 
+    /// No mass, no momentum, and 2 Δ_a of Σ c_a² along each axis a of the wall, at every face.
+    #[test]
+    fn exact_moments_of_what_is_added_to_third_moments() {
+        let delta = [0.5, -0.125];
+        for face in 1..=6 {
+            let Some(wall) = FlatWall::of(links(C[face])) else { panic!("a face") };
+            let mut taken = [0.0; Q];
+            wall.add_third(&mut taken, &delta);
+            let sum =
+                |f: &dyn Fn([i32; 3]) -> i32| -> f64 { (0..Q).map(|i| f64::from(f(C[i])) * taken[i]).sum() };
+            assert_eq!(sum(&|_| 1), 0.0);
+            let along = wall.along();
+            for a in 0..3 {
+                assert_eq!(sum(&|c| c[a]), 0.0, "momentum along {a} at face {face}");
+                let squares = along.iter().position(|&b| b == a).map_or(0.0, |k| 2.0 * delta[k]);
+                assert_eq!(sum(&|c| c[a] * c[a]), squares, "squares along {a} at face {face}");
+            }
+            // Only links into the wall.
+            assert!((0..Q).all(|i| taken[i] == 0.0 || links(C[face]) >> i & 1 == 1));
+        }
+    }
+
     #[test]
     fn exact_moment_is_the_sum_over_the_links() {
         let x: [f64; Q] = std::array::from_fn(|i| libm::sin(1.0 + i as f64));

@@ -4,6 +4,7 @@
 use super::bounce_back::surface_velocity;
 use super::flat_wall::FlatWall;
 use super::owners::owners;
+use super::step::{Step, upstream};
 use crate::lattice::equilibrium::dot;
 use crate::lattice::{C, Q, W, direction, opposite};
 use crate::setup::course::Factors;
@@ -288,32 +289,21 @@ pub(crate) fn resolve(setup: &Setup, at: [usize; 3], i: usize) -> (Source, bool)
 
 /// As [`resolve`], at a time at which the velocities have these factors.
 fn resolve_at(setup: &Setup, factors: &Factors, at: [usize; 3], i: usize) -> (Source, bool) {
-    let mut upstream = at;
+    let mut source = at;
     let mut c = C[i];
     let mut ordinary = true;
     let mut wall: Option<[f64; 3]> = None;
     let mut open = false;
-    for axis in 0..3 {
-        let n = setup.extents[axis];
-        let (leaves, side) = match C[i][axis] {
-            1 => (at[axis] == 0, 0),
-            -1 => (at[axis] + 1 == n, 1),
-            _ => continue,
-        };
-        let inside = if C[i][axis] == 1 { at[axis].wrapping_sub(1) } else { at[axis] + 1 };
-        if !leaves {
-            upstream[axis] = inside;
-            continue;
-        }
-        match setup.faces[axis][side] {
-            Face::Periodic => upstream[axis] = if side == 0 { n - 1 } else { 0 },
-            Face::FreeSlip => {
+    for axis in (0..3).filter(|&axis| C[i][axis] != 0) {
+        match upstream(setup, at, axis, C[i][axis]) {
+            Step::To(x) => source[axis] = x,
+            Step::Out(_, Face::FreeSlip) => {
                 c[axis] = -c[axis];
                 ordinary = false;
             }
-            Face::NoSlip => wall = Some(add(wall, [0.0; 3])),
-            Face::Moving(u) => wall = Some(add(wall, scaled(u, factors.face(axis, side)))),
-            Face::Open => open = true,
+            Step::Out(side, Face::Moving(u)) => wall = Some(add(wall, scaled(u, factors.face(axis, side)))),
+            Step::Out(_, Face::Open) => open = true,
+            Step::Out(_, Face::NoSlip | Face::Periodic) => wall = Some(add(wall, [0.0; 3])),
         }
     }
     if let Some(u) = wall {
@@ -323,7 +313,7 @@ fn resolve_at(setup: &Setup, factors: &Factors, at: [usize; 3], i: usize) -> (So
     if open {
         return (Source::Open, false);
     }
-    let cell = setup.index(upstream);
+    let cell = setup.index(source);
     if setup.is_solid(cell) {
         let body = setup.solids[cell];
         let velocity = scaled(solid_velocity(setup, at, i, body, 0.5), factors.solid(body));

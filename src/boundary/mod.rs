@@ -6,6 +6,7 @@ pub mod flat_wall;
 pub(crate) mod hand_over;
 pub mod links;
 pub(crate) mod owners;
+mod step;
 mod surface_graph;
 pub mod wall_law;
 pub mod wall_slip;

@@ -1,5 +1,6 @@
 //! Whose load each component of what a bounced-back population brings is \[C7\].
 
+use super::step::{Step, upstream};
 use crate::lattice::C;
 use crate::setup::{Face, Setup};
 
@@ -29,24 +30,19 @@ pub(crate) fn owners(setup: &Setup, at: [usize; 3], i: usize, body: u8) -> [[u8;
 
 /// The wall right beside a cell, upstream of a velocity along an axis.
 fn wall_beside(setup: &Setup, at: [usize; 3], axis: usize, velocity: i32) -> Option<u8> {
-    let n = setup.extents[axis];
-    let mut there = at;
-    let (leaves, side) = match velocity {
-        1 => (at[axis] == 0, 0),
-        -1 => (at[axis] + 1 == n, 1),
-        _ => return None,
-    };
-    if leaves {
-        match setup.faces[axis][side] {
-            Face::Periodic => there[axis] = if side == 0 { n - 1 } else { 0 },
-            Face::NoSlip | Face::Moving(_) => return Some(0),
-            Face::FreeSlip | Face::Open => return None,
-        }
-    } else {
-        there[axis] = if velocity == 1 { at[axis] - 1 } else { at[axis] + 1 };
+    if velocity == 0 {
+        return None;
     }
-    let cell = setup.index(there);
-    setup.is_solid(cell).then(|| setup.solids[cell])
+    match upstream(setup, at, axis, velocity) {
+        Step::Out(_, Face::NoSlip | Face::Moving(_)) => Some(0),
+        Step::Out(..) => None,
+        Step::To(x) => {
+            let mut there = at;
+            there[axis] = x;
+            let cell = setup.index(there);
+            setup.is_solid(cell).then(|| setup.solids[cell])
+        }
+    }
 }
 
 #[cfg(test)]
