@@ -167,11 +167,21 @@ fn greatest(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Heightfield;
 
     const THICK: [bool; 3] = [false; 3];
 
     fn block(min_m: [f64; 3], max_m: [f64; 3]) -> Shape {
         Shape::Box { min_m, max_m }
+    }
+
+    /// A plane that rises by 0.75 along x and by 1 along y: √(1 + 0.75² + 1²) = 1.6008.
+    #[test]
+    fn depth_below_a_slope_is_its_distance() {
+        let heights = (0..3).map(|j| (0..3).map(|i| 0.75 * f64::from(i) + f64::from(j)).collect()).collect();
+        let slope = Shape::Heightfield(Heightfield::new([0.0; 2], 1.0, heights));
+        let depth = slope.depth([1.0, 1.0, 0.75]);
+        assert!((depth - 1.0 / (1.0_f64 + 0.5625 + 1.0).sqrt()).abs() < 1e-15, "{depth}");
     }
 
     #[test]

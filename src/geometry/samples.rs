@@ -127,3 +127,21 @@ pub(super) fn touches(p: [f64; 3], distance: f64, holds: impl Fn([f64; 3]) -> bo
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_touches_what_lies_on_either_side() {
+        for axis in 0..3 {
+            for side in [-1.0, 1.0] {
+                let holds = |p: [f64; 3]| side * p[axis] >= 0.5;
+                assert!(
+                    touches([0.0; 3], 0.5, holds) && !touches([0.0; 3], 0.4, holds),
+                    "axis {axis}, side {side}"
+                );
+            }
+        }
+    }
+}

@@ -166,3 +166,54 @@ impl FlowCurve for Papanastasiou {
         self.sharp().channel_velocity(force, half_gap)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rheology::flow::work;
+
+    /// Laws that thin, keep and thicken, at rates below, at and above 1/m.
+    #[test]
+    fn tangent_slope_and_integral_follow_the_stress() {
+        for n in [0.5, 1.0, 1.7] {
+            let law = Papanastasiou { sigma0: 0.3, k: 0.2, n, m: 5.0 };
+            assert_eq!(law.thickens(), n > 1.0);
+            for rate in [0.02_f64, 0.2, 3.0] {
+                // Central differences of relative step 1e-5: rounding 1e-11, truncation 1e-10 of the slope.
+                let step = 1e-5 * rate;
+                let slope = (law.stress(rate + step) - law.stress(rate - step)) / (2.0 * step);
+                let tangent: f64 = law.tangent_viscosity(rate);
+                assert!((tangent / slope - 1.0).abs() < 1e-8, "n = {n}, rate {rate}: {tangent} {slope}");
+                let flow: Flow<f64> = law.flow(law.stress(rate));
+                assert!((flow.rate / rate - 1.0).abs() < 1e-9, "n = {n}: {} {rate}", flow.rate);
+                assert!(
+                    (flow.slope * slope - 1.0).abs() < 1e-8,
+                    "n = {n}, rate {rate}: {} {slope}",
+                    flow.slope
+                );
+                // Γ = σγ̇ − ∫ σ dγ̇, by two hundred pieces of Simpson's rule but for the first, which starts like γ̇ⁿ:
+                // below 1e-6 of the whole.
+                let pieces = (0..200).map(|k| {
+                    let low = rate * k as f64 / 200.0;
+                    if k == 0 {
+                        work(rate / 200.0, |g: f64| law.stress(g))
+                    } else {
+                        between(&law, low, low + rate / 200.0)
+                    }
+                });
+                let integral = law.stress(rate) * rate - pieces.sum::<f64>();
+                assert!(
+                    (flow.integral / integral - 1.0).abs() < 1e-6,
+                    "n = {n}, rate {rate}: {} {integral}",
+                    flow.integral
+                );
+            }
+        }
+    }
+
+    /// ∫ σ dγ̇ by Simpson's rule.
+    fn between(law: &Papanastasiou, low: f64, high: f64) -> f64 {
+        let at = |rate: f64| -> f64 { law.stress(rate) };
+        (high - low) / 6.0 * (at(low) + 4.0 * at(0.5 * (low + high)) + at(high))
+    }
+}

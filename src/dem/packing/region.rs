@@ -101,3 +101,21 @@ impl Region {
         V3::from_fn(|k, _| low[k] + radius + random.unit() * (high[k] - low[k] - 2.0 * radius))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn volumes_of_places() {
+        let pi = std::f64::consts::PI;
+        let low = V3::new(0.5, -1.0, 2.0);
+        assert_eq!(Region::Box { low, high: V3::new(1.5, 1.0, 6.0) }.volume(), 8.0);
+        assert!((Region::Sphere { centre: low, radius: 0.5 }.volume() - pi / 6.0).abs() < 1e-15);
+        let axis = V3::new(0.0, 0.0, 3.0);
+        assert!(
+            (Region::Cylinder { base: low, axis, radius: 0.5, height: 2.0 }.volume() - pi / 2.0).abs()
+                < 1e-15
+        );
+    }
+}
