@@ -71,9 +71,9 @@ fn state(out: &mut String, chapters: &[Chapter]) {
         let revisions = distinct(of_last);
         let full = runs.iter().filter(|e| e.depth == Depth::Full).count();
         let text = format!(
-            "Recorded between {first} and {last}; on the last day at revision {}. {full} claims were last evaluated on \
-             their full ladder, {} on the short one; the tables of the chapters name the revision of each.",
-            code_list(revisions),
+            "Recorded between {first} and {last}; on the last day at {}. {full} claims were last evaluated on their full \
+             ladder, {} on the short one; the chapters name the revision of each.",
+            at_revisions(revisions),
             runs.len() - full
         );
         item(out, &text);
@@ -108,6 +108,14 @@ fn state(out: &mut String, chapters: &[Chapter]) {
     );
     item(out, &text);
     out.push('\n');
+}
+
+/// Revisions by name while they are few.
+fn at_revisions(revisions: Vec<&str>) -> String {
+    match revisions.len() {
+        0..=3 => format!("revision {}", code_list(revisions)),
+        many => format!("{many} revisions"),
+    }
 }
 
 fn distinct<'a>(words: impl Iterator<Item = &'a str>) -> Vec<&'a str> {

@@ -114,7 +114,7 @@ fn scheme(backend: &dyn Backend, depth: f64) -> Result<Sample, VerifyError> {
 /// Discharge against the scheme's own closed form.
 pub const CLOSED_FORM: Claim = Claim {
     id: "film-newtonian-closed-form",
-    title: "The discharge of a film of any depth is a closed form, half derived and half read off runs, to rounding of the density",
+    title: "The discharge of a film of any depth is a closed form, half derived, half read off runs",
     tags: &["F1", "F2", "F3", "K2"],
     measures: "Σ u φ over the column",
     reference: Reference {

@@ -131,7 +131,7 @@ fn measure(backend: &dyn Backend, number: f64) -> Result<Sample, VerifyError> {
 /// Hydrostatic loads at joints.
 pub const JOINTS: Claim = Claim {
     id: "loads-at-joints",
-    title: "Fluid at rest presses on each of several solids that meet each other and the box with ∫ p dA",
+    title: "Solids that meet each other and the box bear ∫ p dA at rest",
     tags: &["C7"],
     measures: "loads by momentum exchange on raised floors, slabs, plates, roofs, blocks in corners, stairs and beams; the largest \
                difference of a component over the largest component of the arrangement",

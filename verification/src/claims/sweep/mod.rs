@@ -9,6 +9,7 @@ mod lattice;
 mod program;
 mod row;
 mod scenes;
+mod shipped;
 
 pub use program::main;
 
@@ -31,7 +32,7 @@ pub static STUDY: Study = Study {
             roll; half of the fluids with another time step than the plan's. The plan says which error to expect, by the rows of \
             scenes like it, and the claim holds it to that.",
     claims: &[claims::WALLS, scenes::SCENES],
-    exhibits: &[scenes::COUNTS, scenes::ROWS, exhibits::ROWS],
+    exhibits: &[scenes::COUNTS, shipped::SHIPPED, scenes::ROWS, exhibits::ROWS],
     mutants: &[],
     limits: &[
         "Pipes and annuli lie in their place, turning cylinders are stairs with errors of ten per cent. In annuli whose sheared layer \

@@ -185,8 +185,7 @@ fn flows(backend: &dyn Backend, number: f64) -> Result<Sample, VerifyError> {
 /// Where the scheme has an error of its own, rounding adds no more than that.
 pub const FLOWS: Claim = Claim {
     id: "single-precision-flows",
-    title: "In Bingham and Herschel-Bulkley channels, vortices and a film, too, single precision changes no more than its \
-            roundings can",
+    title: "In yield-stress channels, vortices and a film single precision changes no more than its roundings can",
     tags: &["L7", "Y3", "F1"],
     measures: "relative L2 difference from double precision over its floor, the worse of f32 stored and f32 throughout: \
                velocities of a Bingham (0) and a Herschel-Bulkley (1) channel of 32 cells and of vortices of 32 cells (2), \

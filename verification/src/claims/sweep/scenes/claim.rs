@@ -13,7 +13,7 @@ const MANY: &[f64] = &[0.0, 50.0, 100.0, 150.0, 200.0, 250.0, 300.0, 350.0];
 /// Random scenes.
 pub const SCENES: Claim = Claim {
     id: "scene-sweep",
-    title: "Random scenes with an exact solution are as far off as their plans say",
+    title: "Random scenes are as far off as their plans say",
     tags: &["B3", "F4", "Y3", "K2", "K3", "D1", "D2"],
     measures: "scenes among fifty whose error lies outside of the interval that the plan gives, counted from the second on; a scene \
                beyond three times the interval, or outside of it without a warning, counts as ten. Films with a free surface, \
