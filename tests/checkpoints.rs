@@ -283,7 +283,7 @@ fn same(name: &str, a: &BTreeMap<String, Vec<u8>>, b: &BTreeMap<String, Vec<u8>>
 }
 
 #[test]
-#[ignore = "minutes: `cargo test --release --test checkpoints -- --ignored --nocapture`"]
+#[ignore = "kills 200 runs, which takes minutes: `cargo test --release --test checkpoints -- --ignored --nocapture`"]
 fn fifty_kills_of_each_kind_leave_equal_bits() {
     survives_many("dam", DAM, "fast", "2steps", 50);
     survives_many("dam", DAM, "plain", "2steps", 50);

@@ -2,23 +2,17 @@
 
 mod planned;
 
-use lahar::output::csv::Series;
-use planned::program::{folder, lahar, root};
+use planned::program::{column, folder, root, series};
 use planned::{plan, pool, refusal, says};
 use serde_json::{Value, json};
 
 /// The last row of a run, by the names of its columns.
 fn last(name: &str, scene: &Value) -> impl Fn(&str) -> f64 + use<> {
-    let out = folder("series", name);
+    let out = folder("series_scenes", name);
     let path = out.join("scene.json");
     std::fs::write(&path, scene.to_string()).expect("a written scene");
-    let run = lahar(&["run", &path.to_string_lossy(), "--out", &out.to_string_lossy(), "--quiet"]);
-    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
-    let series = Series::read(&out.join("series.csv")).expect("a series");
-    move |column: &str| {
-        let at = series.columns.iter().position(|c| c.name == column);
-        series.rows.last().expect("a row")[at.unwrap_or_else(|| panic!("{column}"))]
-    }
+    let series = series(&path.to_string_lossy());
+    move |name: &str| *column(&series, name).last().expect("a row")
 }
 
 fn shipped(name: &str) -> Value {

@@ -25,7 +25,9 @@ pub fn pool() -> Value {
 
 /// A scene in a file of its own.
 fn load(json: &Value) -> Result<AnyScene, String> {
-    let folder = folder("planned", &format!("{:?}", std::thread::current().id()).replace(['(', ')'], "_"));
+    // Of this program and this thread alone.
+    let thread = format!("{:?}", std::thread::current().id()).replace(['(', ')'], "_");
+    let folder = folder("planned", &format!("{}_{thread}", env!("CARGO_CRATE_NAME")));
     let path = folder.join("case.json");
     std::fs::write(&path, json.to_string()).expect("a written scene");
     scene::load(&path).map_err(|error| error.to_string())

@@ -28,9 +28,7 @@ pub fn folder(group: &str, name: &str) -> PathBuf {
 
 /// The series of a scene of this package.
 pub fn series(file: &str) -> Series {
-    let name = file.replace(['/', '.'], "_");
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
+    let folder = folder("series", &file.replace(['/', '.'], "_"));
     let run = lahar(&["run", file, "--quiet", "--out", folder.to_str().expect("a folder")]);
     assert_eq!(run.status.code(), Some(0), "{file}: {}", String::from_utf8_lossy(&run.stderr));
     Series::read(&folder.join("series.csv")).unwrap_or_else(|error| panic!("{error}"))

@@ -82,7 +82,7 @@ fn run(options: &Options) -> Result<(), String> {
     let equivalent = score::equivalent(&root)?;
     let mut rows = Vec::new();
     for mutant in mutants {
-        let outcome = match runs::killer(mutant.number, &tests) {
+        let outcome = match runs::killer(mutant.number, &tests)? {
             Some(test) => Outcome::Noticed(test),
             None if tests.iter().all(|test| !test.reached.contains(&mutant.number)) => Outcome::NotReached,
             None => Outcome::Survived,

@@ -1,6 +1,7 @@
 //! Tests of the copy, each on its own, and what they say of a mistake.
 
 use std::collections::BTreeSet;
+use std::io::{BufRead as _, BufReader};
 use std::os::unix::process::CommandExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -13,6 +14,8 @@ pub struct Test {
     pub place: PathBuf,
     pub name: String,
     pub took: Duration,
+    /// Its program takes the name of one test only.
+    pub alone: bool,
     pub reached: BTreeSet<u32>,
 }
 
@@ -33,9 +36,8 @@ const LEFT_OUT: [&str; 10] = [
 /// Builds the tests and finds their programs.
 pub fn programs(copy: &Path) -> Result<Vec<(PathBuf, PathBuf)>, String> {
     let arguments = ["test", "--no-run", "--message-format", "json"];
-    let output = Command::new("cargo")
+    let output = crate::tree::cargo(copy)
         .args(arguments)
-        .current_dir(copy)
         .stderr(Stdio::inherit())
         .output()
         .map_err(|error| error.to_string())?;
@@ -76,17 +78,20 @@ pub fn all(programs: &[(PathBuf, PathBuf)], scratch: &Path) -> Result<(Vec<Test>
             .stdout(Stdio::piped())
             .output()
             .map_err(|error| error.to_string())?;
-        for line in String::from_utf8_lossy(&output.stdout).lines() {
-            let Some(name) = line.strip_suffix(": test") else { continue };
+        let text = String::from_utf8_lossy(&output.stdout);
+        let names: Vec<&str> = text.lines().filter_map(|line| line.strip_suffix(": test")).collect();
+        let two = command(program, place).args(["--list", "--exact"]).args(names.iter().take(2)).status();
+        let alone = !two.map_err(|error| error.to_string())?.success();
+        for name in names {
             let folder = scratch.join("reached");
             let _ = std::fs::remove_dir_all(&folder);
             std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
             let mut command = command(program, place);
             command.args(["--exact", name]).env("LAHAR_REACHED", &folder);
             let start = Instant::now();
-            let held = holds(command, Duration::from_secs(600));
+            let held = ended(command, Duration::from_secs(600))?;
             let took = start.elapsed();
-            if !held {
+            if !matches!(held, Ended::Well) {
                 failed.push(format!("{} {name}", program.display()));
                 continue;
             }
@@ -94,55 +99,150 @@ pub fn all(programs: &[(PathBuf, PathBuf)], scratch: &Path) -> Result<(Vec<Test>
             let reached =
                 names.flatten().filter_map(|entry| entry.file_name().to_str()?.parse().ok()).collect();
             let (program, place, name) = (program.clone(), place.clone(), name.to_owned());
-            tests.push(Test { program, place, name, took, reached });
+            tests.push(Test { program, place, name, took, alone, reached });
         }
     }
     tests.sort_by_key(|test| test.took);
     Ok((tests, failed))
 }
 
-/// The name of a test that fails with a mistake, or none.
-pub fn killer(number: u32, tests: &[Test]) -> Option<String> {
-    let reach: Vec<&Test> = tests.iter().filter(|test| test.reached.contains(&number)).collect();
-    let mut at = 0;
-    while at < reach.len() {
-        // Tests of one program that follow each other and take up to three seconds run at once.
-        let (mut end, mut sum) = (at, Duration::ZERO);
-        while end < reach.len()
-            && reach[end].program == reach[at].program
-            && (end == at || sum < Duration::from_secs(3))
-        {
-            sum += reach[end].took;
-            end += 1;
-        }
-        let mut command = command(&reach[at].program, &reach[at].place);
-        command.arg("--exact").args(reach[at..end].iter().map(|test| &test.name));
+/// The test that notices a mistake, or none.
+///
+/// # Errors
+/// A program that does not run tests at all.
+pub fn killer(number: u32, tests: &[Test]) -> Result<Option<String>, String> {
+    for batch in batches(number, tests) {
+        let first = &batch[0];
+        let mut command = command(&first.program, &first.place);
         command.env("LAHAR_MUTANT", number.to_string());
-        if !holds(command, Duration::from_secs(20) + 5 * sum) {
-            let program = reach[at].program.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-            let group = program.rsplit_once('-').map_or(program, |(name, _)| name);
-            let more = if end - at > 1 { format!(" and {} more", end - at - 1) } else { String::new() };
-            return Some(format!("{group}: {}{more}", reach[at].name));
+        if !first.alone {
+            command.arg("--exact").args(batch.iter().map(|test| &test.name));
         }
-        at = end;
+        let sum: Duration = batch.iter().map(|test| test.took).sum();
+        let program = first.program.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let group = program.rsplit_once('-').map_or(program, |(name, _)| name);
+        match ended(command, Duration::from_secs(60) + 5 * sum)? {
+            Ended::Well => {}
+            Ended::Failed(name) => return Ok(Some(format!("{group}: {name}"))),
+            Ended::Late => return Ok(Some(format!("{group}, which did not end"))),
+        }
     }
-    None
+    Ok(None)
 }
 
-/// Whether a program ends well in time. It and what it started are ended then.
-fn holds(mut command: Command, limit: Duration) -> bool {
-    command.process_group(0);
-    let Ok(mut child) = command.spawn() else { return false };
-    let start = Instant::now();
-    loop {
-        match child.try_wait() {
-            Ok(Some(status)) => return status.success(),
-            Ok(None) if start.elapsed() < limit => std::thread::sleep(Duration::from_millis(5)),
-            _ => {
-                let _ = Command::new("kill").args(["-KILL", "--", &format!("-{}", child.id())]).status();
-                let _ = child.wait();
-                return false;
+/// The tests that reach a mistake, the quickest first: those of one program that follow each other and take up to three
+/// seconds at once, and a program that takes one name only as a whole, last.
+fn batches(number: u32, tests: &[Test]) -> Vec<Vec<&Test>> {
+    let mut batches: Vec<Vec<&Test>> = Vec::new();
+    let (alone, quick): (Vec<&Test>, Vec<&Test>) =
+        tests.iter().filter(|test| test.reached.contains(&number)).partition(|test| test.alone);
+    for test in quick.into_iter().chain(alone) {
+        match batches.last_mut() {
+            Some(batch)
+                if batch[0].program == test.program
+                    && (test.alone || total(batch) < Duration::from_secs(3)) =>
+            {
+                batch.push(test);
+            }
+            _ => batches.push(vec![test]),
+        }
+    }
+    batches
+}
+
+fn total(batch: &[&Test]) -> Duration {
+    batch.iter().map(|test| test.took).sum()
+}
+
+/// How a program of tests ended.
+enum Ended {
+    Well,
+    /// The first test that failed, or the exit status of a program that crashed.
+    Failed(String),
+    Late,
+}
+
+/// Runs a program of tests until it ends, a test fails or time is up; then it and what it started are ended.
+fn ended(mut command: Command, limit: Duration) -> Result<Ended, String> {
+    command.process_group(0).stdout(Stdio::piped());
+    let mut child = command.spawn().map_err(|error| error.to_string())?;
+    let (send, failed) = std::sync::mpsc::channel();
+    let lines = BufReader::new(child.stdout.take().ok_or("no output")?).lines();
+    let reader = std::thread::spawn(move || {
+        for line in lines.map_while(Result::ok) {
+            if let Some(name) = line.strip_prefix("test ").and_then(|line| line.split_once(" ... FAILED")) {
+                let _ = send.send(name.0.trim().to_owned());
             }
         }
+    });
+    let start = Instant::now();
+    let found = loop {
+        if let Ok(name) = failed.try_recv() {
+            break Ended::Failed(name);
+        }
+        match child.try_wait().map_err(|error| error.to_string())? {
+            Some(status) if status.success() => return Ok(Ended::Well),
+            // Test programs end with 101 when tests fail: this one did not understand its arguments.
+            Some(status) if status.code() == Some(2) => return Err(format!("{command:?}: {status}")),
+            Some(status) => {
+                let _ = reader.join();
+                break Ended::Failed(failed.try_recv().unwrap_or_else(|_| status.to_string()));
+            }
+            None if start.elapsed() > limit => break Ended::Late,
+            None => std::thread::sleep(Duration::from_millis(5)),
+        }
+    };
+    let _ = Command::new("kill")
+        .args(["-KILL", "--", &format!("-{}", child.id())])
+        .stderr(Stdio::null())
+        .status();
+    let _ = child.wait();
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shell(text: &str) -> Result<Ended, String> {
+        let mut command = Command::new("sh");
+        command.args(["-c", text]).stderr(Stdio::null());
+        ended(command, Duration::from_millis(500))
+    }
+
+    #[test]
+    fn ends_of_programs() {
+        assert!(matches!(shell("echo test a ... ok"), Ok(Ended::Well)));
+        // The rest of the tests is not waited for.
+        assert!(
+            matches!(shell("echo 'test b::c ... FAILED'; sleep 60"), Ok(Ended::Failed(name)) if name == "b::c")
+        );
+        assert!(matches!(shell("exit 101"), Ok(Ended::Failed(_))));
+        assert!(matches!(shell("sleep 60"), Ok(Ended::Late)));
+        assert!(shell("exit 2").is_err(), "arguments that are not understood say nothing of a mistake");
+    }
+
+    #[test]
+    fn quick_tests_go_together_and_whole_programs_last() {
+        let test = |program: &str, ms: u64, alone: bool| Test {
+            program: program.into(),
+            place: PathBuf::new(),
+            name: ms.to_string(),
+            took: Duration::from_millis(ms),
+            alone,
+            reached: BTreeSet::from([7]),
+        };
+        let tests = [
+            test("w", 1, true),
+            test("a", 2, false),
+            test("a", 3, false),
+            test("b", 4, false),
+            test("w", 5, true),
+        ];
+        let names = |batches: Vec<Vec<&Test>>| -> Vec<Vec<String>> {
+            batches.iter().map(|batch| batch.iter().map(|test| test.name.clone()).collect()).collect()
+        };
+        assert_eq!(names(batches(7, &tests)), [vec!["2", "3"], vec!["4"], vec!["1", "5"]]);
+        assert!(batches(8, &tests).is_empty());
     }
 }

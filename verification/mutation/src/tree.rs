@@ -114,14 +114,18 @@ fn put(path: &Path, bytes: &[u8]) -> io::Result<()> {
     std::fs::write(path, bytes)
 }
 
+/// Cargo in the copy, with a target folder of its own: packages of the same names in the project's would take each other's
+/// place.
+pub fn cargo(copy: &Path) -> Command {
+    let mut command = Command::new("cargo");
+    command.current_dir(copy).env("CARGO_TARGET_DIR", copy.join("target"));
+    command
+}
+
 /// The mistakes at which the copy does not compile.
 pub fn unviable(copy: &Path) -> Result<BTreeSet<u32>, String> {
     let arguments = ["check", "--lib", "--package", "lahar", "--message-format", "json"];
-    let output = Command::new("cargo")
-        .args(arguments)
-        .current_dir(copy)
-        .output()
-        .map_err(|error| error.to_string())?;
+    let output = cargo(copy).args(arguments).output().map_err(|error| error.to_string())?;
     let mut found = BTreeSet::new();
     let mut texts: BTreeMap<PathBuf, String> = BTreeMap::new();
     let mut others = Vec::new();

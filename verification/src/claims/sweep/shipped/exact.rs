@@ -5,7 +5,7 @@ use crate::exact::couette::PlaneCouette;
 use crate::exact::film::Film;
 use crate::exact::poiseuille::Channel;
 use lahar::output::csv::Series;
-use lahar::scene::{self, AnyScene, BodyForce, Scene};
+use lahar::scene::{self, AnyScene, BodyForce, Boundary, Scene};
 use std::path::Path;
 
 /// What the plan calls the error, and the error of a finished run; none where there is no closed form here.
@@ -15,18 +15,17 @@ pub fn error(path: &Path, out: &Path) -> Result<Option<(&'static str, f64)>, Ver
         return Ok(None);
     };
     let name = path.file_stem().and_then(|name| name.to_str()).unwrap_or_default();
-    let wall_speed = 0.01;
     let (of, exact, scale) = match name {
         "channel_newtonian" | "channel_bingham" | "channel_herschel_bulkley" => {
             let exact = channel(&scene, force(&scene));
             ("largest speed", exact, exact)
         }
         "film_newtonian" => {
-            let exact = film(&scene, 0.0205, 16.0);
+            let exact = film(&scene);
             ("largest speed", exact, exact)
         }
-        "couette" => ("speed anywhere, of the wall's", couette(&scene, wall_speed), wall_speed),
-        "pool_at_rest" => ("speeds, of √(g × depth)", 0.0, (9.81_f64 * 0.0373).sqrt()),
+        "couette" => ("speed anywhere, of the wall's", couette(&scene), wall_speed(&scene)),
+        "pool_at_rest" => ("speeds, of √(g × depth)", 0.0, (gravity(&scene) * level(&scene)).sqrt()),
         _ => return Ok(None),
     };
     let series = Series::read(&out.join("series.csv")).map_err(|error| fault(error.to_string()))?;
@@ -44,6 +43,25 @@ fn force(scene: &Scene) -> f64 {
     }
 }
 
+/// Of the upper wall, m/s.
+fn wall_speed(scene: &Scene) -> f64 {
+    match scene.domain.boundaries.y_max {
+        Boundary::MovingWall { velocity_m_per_s } => velocity_m_per_s[0],
+        _ => f64::NAN,
+    }
+}
+
+/// m/s².
+fn gravity(scene: &Scene) -> f64 {
+    scene.gravity.map_or(f64::NAN, |gravity| gravity.magnitude_m_per_s2)
+}
+
+/// Height of the surface above the floor, m.
+fn level(scene: &Scene) -> f64 {
+    let fill = scene.fluid.initial.as_ref().and_then(|initial| initial.fill_level.as_ref());
+    fill.map_or(f64::NAN, |fill| fill.height_m)
+}
+
 /// In the two cells beside the middle of an even number.
 fn channel(scene: &Scene, force: f64) -> f64 {
     let (height, spacing) = (scene.domain.size_m[1], scene.domain.spacing_m);
@@ -51,13 +69,15 @@ fn channel(scene: &Scene, force: f64) -> f64 {
 }
 
 /// In the highest cell: its middle lies below a surface that cuts it there.
-fn film(scene: &Scene, thickness: f64, slope_deg: f64) -> f64 {
-    let (law, density) = (scene.fluid.rheology.law(), scene.fluid.density_kg_per_m3);
-    Film { law, thickness, density, gravity: 9.81, slope: slope_deg.to_radians() }.velocity(thickness)
+fn film(scene: &Scene) -> f64 {
+    let (law, density, thickness) = (scene.fluid.rheology.law(), scene.fluid.density_kg_per_m3, level(scene));
+    let slope = scene.gravity.and_then(|gravity| gravity.slope_deg).unwrap_or(f64::NAN).to_radians();
+    Film { law, thickness, density, gravity: gravity(scene), slope }.velocity(thickness)
 }
 
 /// In the cell beside the moving wall.
-fn couette(scene: &Scene, wall_speed: f64) -> f64 {
+fn couette(scene: &Scene) -> f64 {
     let (gap, spacing) = (scene.domain.size_m[1], scene.domain.spacing_m);
-    PlaneCouette { law: scene.fluid.rheology.law(), wall_speed, gap }.velocity(gap - 0.5 * spacing)
+    PlaneCouette { law: scene.fluid.rheology.law(), wall_speed: wall_speed(scene), gap }
+        .velocity(gap - 0.5 * spacing)
 }
