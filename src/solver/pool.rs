@@ -1,11 +1,25 @@
 //! Threads of a run.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 /// As many threads as asked for; `None` for one, and where they cannot be had: results do not depend on it.
 #[must_use]
-pub(crate) fn start(threads: usize) -> Option<rayon::ThreadPool> {
-    (threads > 1).then(|| rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok()).flatten()
+pub(crate) fn start(threads: usize) -> Option<Arc<rayon::ThreadPool>> {
+    (threads > 1)
+        .then(|| rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok())
+        .flatten()
+        .map(Arc::new)
+}
+
+/// Runs `steps` on a thread of the pool: a caller outside it would be handed over to it, and back, at every pass of every
+/// step.
+pub(crate) fn within<T: Send>(pool: Option<&rayon::ThreadPool>, steps: impl FnOnce() -> T + Send) -> T {
+    match pool {
+        Some(pool) => pool.install(steps),
+        None => steps(),
+    }
 }
 
 /// Runs `work` on every item, on the pool if there is one; results in order.

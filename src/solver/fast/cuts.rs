@@ -25,7 +25,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let bodies = self.setup.solid_motion.len();
         let task = self.task([0.0; 3]);
         let items: Vec<_> = returned.iter_mut().enumerate().filter(|(_, list)| !list.is_empty()).collect();
-        let parts = each(self.pool.as_ref(), items, |(number, list): (usize, &mut Vec<f64>)| {
+        let parts = each(self.pool.as_deref(), items, |(number, list): (usize, &mut Vec<f64>)| {
             let mut brought = Brought::new(bodies);
             self.block_returns(&task, number, list, &mut brought);
             brought
@@ -42,7 +42,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let both = returned.iter_mut().zip(&mut old).enumerate();
         let items: Vec<_> = both.filter(|(_, (list, _))| !list.is_empty()).collect();
         each(
-            self.pool.as_ref(),
+            self.pool.as_deref(),
             items,
             |(number, (list, own)): (usize, (&mut Vec<f64>, &mut Aligned<E>))| {
                 self.settle(number, list, own.get_mut(), surplus);

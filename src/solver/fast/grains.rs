@@ -143,6 +143,6 @@ impl<P: Physics, E: Element> Host for FastRun<P, E> {
         self.surface.as_ref().map_or(0, |surface| surface.counts[0] + surface.counts[1])
     }
     fn pool(&self) -> Option<&rayon::ThreadPool> {
-        self.pool.as_ref()
+        self.pool.as_deref()
     }
 }

@@ -45,7 +45,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let task = self.task([0.0; 3]);
         let numbers = (0..self.blocks.len()).filter(|&n| !self.blocks[n].links.is_empty()).collect();
         let solids = self.loads.len();
-        let parts = each(self.pool.as_ref(), numbers, |number: usize| {
+        let parts = each(self.pool.as_deref(), numbers, |number: usize| {
             task.loads_of(number, &self.rim[number], solids)
         });
         let mut sums = vec![LoadSums::default(); solids];

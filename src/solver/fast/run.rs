@@ -1,5 +1,6 @@
 //! Arrays and steps of the fast backend.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -23,7 +24,7 @@ use crate::setup::{Setup, WallRule, YieldTreatment};
 use crate::solver::initial;
 use crate::solver::loads::recorded;
 use crate::solver::physics::Physics;
-use crate::solver::pool::{self, each};
+use crate::solver::pool::{self, each, within};
 use crate::solver::run::{Load, StartError, Stopped};
 
 /// Populations above this many bytes do not fit the caches: stores then go past them.
@@ -64,7 +65,7 @@ pub struct FastRun<P, E: Element = f64> {
     /// Seconds spent so far in: collision, walls, surface, surfaces of grains, motion of grains.
     pub(super) seconds: [f64; 5],
     pub(super) fluid_cells: u64,
-    pub(super) pool: Option<rayon::ThreadPool>,
+    pub(super) pool: Option<Arc<rayon::ThreadPool>>,
 }
 
 impl<P: Physics, E: Element> FastRun<P, E> {
@@ -274,7 +275,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             })
             .collect();
         let (chosen, collide) = (self.chosen, self.passes.collide);
-        let outcomes = each(self.pool.as_ref(), own, |mut own| {
+        let outcomes = each(self.pool.as_deref(), own, |mut own| {
             let outcome = collide(chosen, &task, &mut own);
             stores::fence();
             outcome
@@ -365,9 +366,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
     }
 
     pub(super) fn run(&mut self, steps: u64) -> Result<(), Stopped> {
-        for _ in 0..steps {
-            self.advance_one()?;
-        }
-        Ok(())
+        let pool = self.pool.clone();
+        within(pool.as_deref(), || (0..steps).try_for_each(|_| self.advance_one()))
     }
 }

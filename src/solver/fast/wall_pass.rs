@@ -23,7 +23,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             sourced: self.setup.stress_source,
         };
         let items = rim.iter_mut().enumerate().filter(|(_, rim)| !rim.is_empty()).collect();
-        each(self.pool.as_ref(), items, |(number, rim): (usize, &mut Vec<Rim>)| {
+        each(self.pool.as_deref(), items, |(number, rim): (usize, &mut Vec<Rim>)| {
             let force_of = |local| self.force_of(number, local, force);
             let is_full = |local| self.is_full(number, local);
             let is_liquid = |place: Place| self.is_fluid(place) && self.is_full_at(place);

@@ -91,7 +91,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             .map(|(k, ((post, omega), velocity))| CollideChunk { start: k * CHUNK, post, omega, velocity })
             .collect();
         let this = &*self;
-        let results = each(this.pool.as_ref(), items, |chunk| this.collide_chunk(chunk, force));
+        let results = each(this.pool.as_deref(), items, |chunk| this.collide_chunk(chunk, force));
         (self.post, self.previous_omega) = (post, omega);
         if let Some(surface) = &mut self.surface {
             surface.velocity = velocity;
@@ -146,7 +146,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         let mut f = std::mem::take(&mut self.f);
         let this = &*self;
         let items = f.chunks_mut(CHUNK).enumerate().collect();
-        each(this.pool.as_ref(), items, |(k, f): (usize, &mut [Cell])| this.stream_chunk(k * CHUNK, f));
+        each(this.pool.as_deref(), items, |(k, f): (usize, &mut [Cell])| this.stream_chunk(k * CHUNK, f));
         self.f = f;
     }
 

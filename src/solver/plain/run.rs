@@ -1,5 +1,7 @@
 //! A flow and its time step.
 
+use std::sync::Arc;
+
 use super::cut_cells::Cuts;
 use super::surface::cells::Wet;
 use super::surface::{Design, Surface, SurfacePhysics};
@@ -13,7 +15,7 @@ use crate::solver::cell::{self, Cell};
 use crate::solver::initial::{self, REST, starting_omega};
 use crate::solver::loads::recorded;
 use crate::solver::physics::Physics;
-use crate::solver::pool;
+use crate::solver::pool::{self, within};
 use crate::solver::run::{Load, StartError, Stopped};
 
 /// Cells per chunk of work: enough to hide the hand-over, few enough to balance.
@@ -43,7 +45,7 @@ pub struct PlainRun<P, S = Design> {
     /// Loads on solids where no surface keeps them.
     pub(super) loads: Vec<Load>,
     pub(super) step: u64,
-    pub(super) pool: Option<rayon::ThreadPool>,
+    pub(super) pool: Option<Arc<rayon::ThreadPool>>,
 }
 
 impl<P: Physics> PlainRun<P> {
@@ -154,10 +156,8 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
     }
 
     pub(super) fn run(&mut self, steps: u64) -> Result<(), Stopped> {
-        for _ in 0..steps {
-            self.advance_one()?;
-        }
-        Ok(())
+        let pool = self.pool.clone();
+        within(pool.as_deref(), || (0..steps).try_for_each(|_| self.advance_one()))
     }
 
     /// Whether a cell holds fluid now.
@@ -203,7 +203,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             previous_omega: &mut self.previous_omega,
             surface: self.surface.as_mut()?,
             step: self.step,
-            pool: self.pool.as_ref(),
+            pool: self.pool.as_deref(),
         };
         Some((wet, self.grains.as_deref_mut()))
     }

@@ -21,7 +21,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let Some(inertia) = surface.inertia.as_mut().filter(|inertia| inertia.started) else { return };
         let Inertia { velocity, before, acceleration, .. } = inertia;
         let items: Vec<_> = acceleration.iter_mut().zip(velocity).zip(before).zip(&surface.kinds).collect();
-        each(self.pool.as_ref(), items, |(((acceleration, velocity), before), kinds)| {
+        each(self.pool.as_deref(), items, |(((acceleration, velocity), before), kinds)| {
             for (local, kind) in kinds.iter().enumerate() {
                 let to = if kind.is_fluid() {
                     let (now, then) = (get(velocity, local), get(before, local));
@@ -47,7 +47,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let mut interface = std::mem::take(&mut surface.interface);
         let this = &*self;
         let items: Vec<_> = interface.iter_mut().enumerate().filter(|(_, list)| !list.is_empty()).collect();
-        each(this.pool.as_ref(), items, |(number, list): (usize, &mut Vec<InterfaceCell>)| {
+        each(this.pool.as_deref(), items, |(number, list): (usize, &mut Vec<InterfaceCell>)| {
             let block = &this.blocks[number];
             let around = numbers_around(&this.layout, block.place);
             for cell in list {

@@ -35,7 +35,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         }
         let Some(surface) = &mut self.surface else { return };
         let items: Vec<_> = surface.fill.iter_mut().zip(&surface.kinds).zip(&surface.interface).collect();
-        each(self.pool.as_ref(), items, |((fill, kinds), list)| {
+        each(self.pool.as_deref(), items, |((fill, kinds), list)| {
             for cell in list {
                 let local = usize::from(cell.local);
                 if kinds[local] == Kind::Interface {
@@ -51,7 +51,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let rules = &surface.rules;
         let items: Vec<_> =
             surface.interface.iter().enumerate().filter(|(_, list)| !list.is_empty()).collect();
-        let lists = each(self.pool.as_ref(), items, |(number, list): (usize, &Vec<InterfaceCell>)| {
+        let lists = each(self.pool.as_deref(), items, |(number, list): (usize, &Vec<InterfaceCell>)| {
             let mut marks = Vec::new();
             for cell in list {
                 let number_in_box = || self.number_in_box(number, usize::from(cell.local));

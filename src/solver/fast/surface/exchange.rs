@@ -32,7 +32,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let task = self.task(*force);
         let Some(surface) = &self.surface else { return };
         let items: Vec<_> = interface.iter_mut().zip(&mut returned).enumerate().collect();
-        let brought = each(self.pool.as_ref(), items, |(number, (list, returned))| {
+        let brought = each(self.pool.as_deref(), items, |(number, (list, returned))| {
             let mut brought = Brought { entries: Entries::new(solids), force: VectorSum::default() };
             let block = &self.blocks[number];
             if self.old[number].is_empty() || (list.is_empty() && block.links.is_empty()) {

@@ -20,7 +20,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
         let Some(surface) = &self.surface else { return };
         let items: Vec<_> = flow.iter_mut().zip(&surface.interface).enumerate().collect();
         each(
-            self.pool.as_ref(),
+            self.pool.as_deref(),
             items,
             |(number, (flow, list)): (usize, (&mut Flow, &Vec<InterfaceCell>))| {
                 if list.is_empty() {

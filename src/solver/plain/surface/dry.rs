@@ -31,7 +31,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         let items = dry.chunks_mut(CHUNK).enumerate().collect();
         let Some(surface) = &self.surface else { return };
         let streamed = Streamed { links: &self.links, after: &self.post, arrived: &self.f };
-        each(self.pool.as_ref(), items, |(k, chunk): (usize, &mut [[f64; 3]])| {
+        each(self.pool.as_deref(), items, |(k, chunk): (usize, &mut [[f64; 3]])| {
             for (j, dry) in chunk.iter_mut().enumerate() {
                 let cell = k * CHUNK + j;
                 *dry = match surface.kinds[cell] {
@@ -50,7 +50,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         let Some(surface) = &self.surface else { return };
         let count = self.f.len().div_ceil(CHUNK);
         let items = chunks(&mut self.f, count).into_iter().enumerate().collect();
-        each(self.pool.as_ref(), items, |(k, chunk): (usize, &mut [Cell])| {
+        each(self.pool.as_deref(), items, |(k, chunk): (usize, &mut [Cell])| {
             for (j, f) in chunk.iter_mut().enumerate() {
                 let cell = k * CHUNK + j;
                 if surface.kinds[cell] == Kind::Interface && surface.touches[cell] & touch::GAS == 0 {

@@ -39,7 +39,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
             .map(|(k, (mass, touches))| ExchangeChunk { start: k * CHUNK, mass, touches })
             .collect();
         let Some(surface) = &self.surface else { return };
-        each(self.pool.as_ref(), items, |chunk: ExchangeChunk| {
+        each(self.pool.as_deref(), items, |chunk: ExchangeChunk| {
             for (k, mass) in chunk.mass.iter_mut().enumerate() {
                 if surface.kinds[chunk.start + k] == Kind::Interface {
                     let (gained, touches) = self.exchange_cell(surface, &carried, chunk.start + k);
@@ -58,7 +58,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
         let Some(surface) = &self.surface else { return Vec::new() };
         let mut carried = surface.fill.clone();
         let items = carried.chunks_mut(CHUNK).enumerate().collect();
-        each(self.pool.as_ref(), items, |(k, chunk): (usize, &mut [f64])| {
+        each(self.pool.as_deref(), items, |(k, chunk): (usize, &mut [f64])| {
             for (j, carried) in chunk.iter_mut().enumerate() {
                 if surface.kinds[k * CHUNK + j] == Kind::Interface {
                     *carried = surface.carried_share(&self.links, k * CHUNK + j);
