@@ -2,8 +2,10 @@
 
 mod program;
 
+use lahar::output::csv::Series;
 use lahar::run::{Ended, RestOutcome, Summary};
 use program::lahar;
+use std::path::Path;
 
 /// Runs a scene with a backend, on a number of threads; what it printed and what it was.
 fn run(name: &str, scene: &str, more: &[&str]) -> (String, Summary) {
@@ -173,4 +175,50 @@ fn mud_that_hangs_on_a_wall_does_not_creep() {
     let (_, summary) = run("layer-kept", &kept, &["--until", "0.8"]);
     let found = rest(&summary);
     assert!(summary.ended == Ended::EndTime && found.largest_speed_m_per_s > 1e-5, "{found:?}");
+}
+
+/// A pool between walls, `wide` by `across` cells, 3.64 cells deep, with τ⁺ − ½ = `excess` (3μΔt/(ρΔx²)).
+fn pool_between_walls([wide, across]: [u32; 2], excess: f64, operator: &str) -> String {
+    let (dx, dt) = (0.01, 0.002);
+    let viscosity = 1000.0 * excess * dx * dx / (3.0 * dt);
+    let [x, y] = [f64::from(wide) * dx, f64::from(across) * dx];
+    let sides = if across > 1 { r#", "y_min": "no_slip", "y_max": "no_slip""# } else { "" };
+    format!(
+        r#"{{
+        "domain": {{
+            "size_m": [{x}, {y}, 0.06], "spacing_m": {dx},
+            "boundaries": {{
+                "x_min": "no_slip", "x_max": "no_slip", "z_min": "no_slip", "z_max": "open"{sides}
+            }}
+        }},
+        "gravity": {{ "magnitude_m_per_s2": 9.81, "direction": [0, 0, -1] }},
+        "fluid": {{
+            "density_kg_per_m3": 1000.0,
+            "rheology": {{ "newtonian": {{ "viscosity_pa_s": {viscosity} }} }},
+            "initial": {{ "fill_level": {{ "axis": "z", "height_m": 0.0364 }} }}
+        }},
+        "numerics": {{ "time_step_s": {dt}, "collision": {{ "operator": "{operator}" }} }},
+        "output": {{ "probes": [{{ "name": "fastest", "measure": "max_speed" }}] }},
+        "stop": {{ "end_time_s": 40.0 }}
+    }}"#
+    )
+}
+
+/// Rounding is all that moves: √(g × depth) is 0.6 m/s, and 20 000 steps add up to 1e-14 of it (1e-12 leaves room). Where walls
+/// answer as strongly as steady flow asks, these pools reach 1e-3 to 1e-2 m/s.
+#[test]
+fn pools_of_thin_fluids_stay_at_rest_between_walls() {
+    for (size, excess) in
+        [([4, 1], 0.0055), ([7, 1], 0.005), ([3, 1], 0.003), ([5, 4], 0.006), ([6, 1], 0.015)]
+    {
+        for operator in ["trt", "central_moment"] {
+            let name = format!("pool-{}-{}-{operator}", size[0], size[1]);
+            run(&name, &pool_between_walls(size, excess, operator), &[]);
+            let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("at-rest").join(name).join("series.csv");
+            let series = Series::read(&path).expect("a series");
+            let column = series.columns.iter().position(|column| column.name == "fastest").expect("a column");
+            let most = series.rows.iter().map(|row| row[column]).fold(0.0, f64::max);
+            assert!(most < 1e-12, "{size:?} cells, {excess}, {operator}: {most} m/s");
+        }
+    }
 }

@@ -178,6 +178,36 @@ fn a_signal_that_is_ignored_stays_ignored() {
     assert_eq!(child.wait().expect("an end").code(), Some(143));
 }
 
+/// The same signal, to a run that a shell started to ignore it and to one that it did not. Where the system does not say what is
+/// ignored, as elsewhere than on Linux, nothing is.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_hangup_ends_a_run_unless_it_was_ignored_from_the_start() {
+    for (name, trap, code, ended) in [
+        ("hangup_ignored", "trap '' HUP; ", 0, Ended::EndTime),
+        ("hangup_heard", "", 129, Ended::Interrupted),
+        ("other_ignored", "trap '' INT TERM; ", 129, Ended::Interrupted),
+    ] {
+        let (path, out) = scene(name, FILM);
+        let run = command(&path, &out);
+        let mut shell = Command::new("sh");
+        // The shell becomes the program, so that its number is that of the run.
+        shell.arg("-c").arg(format!("{trap}exec \"$0\" \"$@\"")).arg(run.get_program()).args(run.get_args());
+        shell.args(["--until", "2"]).stdout(Stdio::null()).stderr(Stdio::null());
+        let mut child = started(shell, &out);
+        // Stopped, it cannot reach its end before the signal comes.
+        send("STOP", &child);
+        assert_eq!(summary(&out).ended, Ended::Running, "{name}");
+        send("HUP", &child);
+        send("CONT", &child);
+        assert_eq!(child.wait().expect("an end").code(), Some(code), "{name}");
+        let summary = summary(&out);
+        assert_eq!((summary.ended, &summary.stopped), (ended, &None), "{name}");
+        // An end asked for is not the end of 2 s, which a last step may miss by rounding.
+        assert_eq!(summary.time_s > 1.999, ended == Ended::EndTime, "{name}: {} s", summary.time_s);
+    }
+}
+
 #[test]
 fn rows_of_a_killed_run_are_on_the_disk() {
     let (path, out) = scene("killed", FILM);

@@ -235,6 +235,7 @@ impl Kernel for SlipKernel {
                 rho,
                 omega,
                 magnitude: q,
+                gain: L::splat(0.02),
             };
             out.push(newtonian_slip(&wall, omega));
             let fluid = wall_law::Fluid::new(

@@ -23,6 +23,8 @@ pub struct WallStress<L = f64> {
     pub omega: L,
     /// √(½ Q:Q) of the cell.
     pub magnitude: L,
+    /// Largest slip over f of a fluid of one viscosity ([`super::wall_slip::newtonian_slip`]).
+    pub gain: L,
     /// u² of the cell and of the wall.
     pub squares: [L; 2],
 }

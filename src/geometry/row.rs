@@ -115,4 +115,27 @@ mod tests {
             }
         }
     }
+
+    fn polygon(corners: usize) -> Shape {
+        let turn = |k: usize| std::f64::consts::TAU * k as f64 / corners as f64;
+        let points_m = (0..corners).map(|k| [libm::cos(turn(k)), libm::sin(turn(k))]).collect();
+        Shape::Polygon { axis: Axis::Z, points_m, from_m: None, to_m: None }
+    }
+
+    /// 1 for what is simple, more for many corners, and for many parts what they cost together.
+    #[test]
+    fn limit_weights_of_corners_and_parts() {
+        let ball = || Shape::Sphere { centre_m: [0.5; 3], radius_m: 0.3 };
+        assert_eq!((ball().weight(), polygon(4).weight()), (1, 1));
+        let [few, many] = [polygon(400), polygon(800)].map(|shape| shape.weight());
+        // Every corner is looked at: twice as many cost twice as much, but for the 1 that a point costs at all.
+        assert!(few > 10 && (many - 1) == 2 * (few - 1), "{few} {many}");
+        for parts in [vec![ball(); 7], vec![polygon(400), ball(), polygon(800)]] {
+            let together = parts.iter().map(Shape::weight).sum::<usize>();
+            assert_eq!(Shape::Union(parts.clone()).weight(), together);
+            assert_eq!(Shape::Intersection(parts.clone()).weight(), together);
+            let from = Box::new(Shape::Union(vec![ball(), ball()]));
+            assert_eq!(Shape::Difference { from, minus: parts }.weight(), 2 + together);
+        }
+    }
 }

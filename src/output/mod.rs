@@ -16,6 +16,8 @@ pub(crate) mod pvd;
 pub mod svg;
 pub mod table;
 pub mod terminal;
+#[cfg(test)]
+mod tests;
 mod ticks;
 pub mod vti;
 pub mod vtp;

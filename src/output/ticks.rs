@@ -90,9 +90,11 @@ fn linear_ticks([low, high]: [f64; 2]) -> Vec<(f64, String)> {
     let first = (low / step).ceil() as i64;
     let last = (high / step).floor() as i64;
     let digits = (-libm::floor(libm::log10(step) + 1e-9)).clamp(0.0, 12.0) as usize;
+    let most = high.abs().max(low.abs());
+    // Four digits that `short` has must tell neighbours apart.
+    let wide = (most >= 1e5 || step < 1e-4) && most / step < 1e4;
     let tick = |k: i64| {
         let value = k as f64 * step;
-        let wide = high.abs().max(low.abs()) >= 1e5 || step < 1e-4;
         (value, if wide { short(value) } else { format!("{value:.digits$}") })
     };
     (first..=last).map(tick).collect()

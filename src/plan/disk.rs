@@ -2,13 +2,18 @@
 
 use serde::Serialize;
 
+use super::coupled::links;
 use super::warning::Warning;
+use crate::lattice::C;
 use crate::scene::dry::DryScene;
 use crate::scene::{Cadence, FieldChoice, Measure, Scene};
-use crate::setup::Setup;
+use crate::setup::{Face, Setup};
+use crate::solver::boundary_cells::neighbour;
 
 /// Bytes of a surface file per cell that the surface passes: a dozen triangles of 32 bytes and half as many points of 48.
 const SURFACE_CELL: u64 = 800;
+/// The same per link between fluid and grains: 490 grains of two cells.
+const SURFACE_LINK: u64 = 40;
 /// Bytes of a grain in a file, of a sphere of a clump, and of the contacts of a grain in a packing (three lines).
 const GRAIN: u64 = 184;
 const SPHERE: u64 = 88;
@@ -94,7 +99,7 @@ pub(super) fn flow(scene: &Scene, setup: &Setup, grains: Option<Grains>, steps: 
         |what, files: u64, each: u64| all.push(Files { what, files, bytes: files.saturating_mul(each) });
     add("fields", shots, FieldChoice::of(scene).bytes() + HEAD);
     if setup.free_surface.is_some() {
-        add("surfaces", shots, SURFACE_CELL * surface_cells(setup) + HEAD);
+        add("surfaces", shots, surface_bytes(setup) + HEAD);
     }
     let [nx, ny, nz] = setup.extents.map(|n| n as u64);
     for (probe, _) in output.all_probes() {
@@ -136,21 +141,25 @@ fn joined(all: Vec<Files>) -> Vec<Files> {
     out
 }
 
-/// Cells of fluid beside air at time 0.
+/// Bytes of the mesh of the surface at time 0 in its file: around the fluid, and around grains in it.
+pub(super) fn surface_bytes(setup: &Setup) -> u64 {
+    let grains = setup.grains.as_ref().map_or(0.0, |grains| links(&grains.dem.grains, grains.units.dx_m));
+    SURFACE_CELL * surface_cells(setup) + SURFACE_LINK * grains as u64
+}
+
+/// Cells of fluid at time 0 beside anything else, as the mesh closes at walls and solids.
 fn surface_cells(setup: &Setup) -> u64 {
     let Some(surface) = &setup.free_surface else { return 0 };
-    let [nx, ny, _] = setup.extents;
-    let strides = [1, nx, nx * ny];
-    let wet = |cell: usize| surface.fill[cell] > 0.0;
-    let at_air = |cell: usize| {
-        let at = setup.coordinates(cell);
-        (0..3).any(|a| {
-            let beside = |next: usize| !wet(next) && !setup.is_solid(next);
-            at[a] > 0 && beside(cell - strides[a])
-                || at[a] + 1 < setup.extents[a] && beside(cell + strides[a])
-        })
+    let wet = |cell: usize| !setup.is_solid(cell) && surface.fill[cell] > 0.0;
+    let ends = |cell: usize, c: &[i32; 3]| match neighbour(setup, setup.coordinates(cell), *c) {
+        Some(at) => !wet(setup.index(at)),
+        None => {
+            let axis = c.iter().position(|&c| c != 0).unwrap_or(0);
+            setup.faces[axis][usize::from(c[axis] > 0)] != Face::FreeSlip
+        }
     };
-    (0..setup.cells()).filter(|&cell| wet(cell) && at_air(cell)).count() as u64
+    let surface = |cell: &usize| wet(*cell) && C[1..7].iter().any(|c| ends(*cell, c));
+    (0..setup.cells()).filter(surface).count() as u64
 }
 
 /// Bytes and number of all files.

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::coupled::added_bytes;
+use super::disk::surface_bytes;
 pub use super::limits::available;
 pub(crate) use super::text::human;
 use crate::boundary::cut::cut_count;
@@ -82,6 +83,9 @@ const SURFACE_FIELDS: u64 = 8 + 1;
 /// Pressure, velocity, stress and shear rate in SI units, and four marks, while a picture of the box is
 /// written.
 const PICTURE: u64 = (1 + 3 + 6 + 1) * 8 + 4;
+/// Halves of the bytes of a surface in its file that are held while it is written: the mesh, its corners by edge, arrays that
+/// grow by doubling, the file.
+const MESH: u64 = 7;
 /// Scratch of the plan itself: shapes, distances between walls, columns of fluid.
 const PLANNING: u64 = 16;
 
@@ -161,6 +165,9 @@ pub(crate) fn items(setup: &Setup, layout: Layout) -> Vec<Item> {
     items.push(per_cell("the same in SI units", Part::Outputs, PICTURE));
     if surface.is_some() || setup.grains.is_some() {
         items.push(per_cell("fill and kind while writing", Part::Outputs, SURFACE_FIELDS));
+    }
+    if surface.is_some() {
+        items.push(item("mesh of the surface while writing", Part::Outputs, MESH * surface_bytes(setup) / 2));
     }
     items
 }

@@ -55,7 +55,6 @@ pub use warning::Warning;
 pub use ways::{Way, Ways};
 
 use self::cells::Cells;
-use self::cost::SPHERE_UPDATES_PER_SECOND;
 use self::coupled::{Coupled, Findings};
 use self::facts::Facts;
 use self::figures::Basis;
@@ -206,7 +205,8 @@ fn shown(given: &Given, coupled: Option<&(Coupled, Findings)>) -> Numbers {
         let mixture_m3 = pool.map_or(open, |pool| pool.volume);
         let grains = coupled::Given { facts, units, setup, coupled, findings, scales, mixture_m3 };
         let (grains, warnings) = coupled::numbers(&grains);
-        numbers.estimated_seconds += grains.sphere_updates / SPHERE_UPDATES_PER_SECOND;
+        numbers.estimated_seconds +=
+            cost::of_grains(0.0, grains.sphere_updates) + cost::of_links(numbers.steps as f64, grains.links);
         numbers.warnings.extend(warnings);
         numbers.grains = Some(grains);
     }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::cost::CELL_UPDATES_PER_SECOND;
+use super::cost::Passed;
 use super::coupled::CoupledNumbers;
 use super::disk::Files;
 use super::expected::{self, Expectation};
@@ -10,9 +10,11 @@ use super::figures::{Basis, arrest_thickness, plug_slip, push, rounding_floor, s
 use super::judge::Judged;
 use super::memory::{Item, at_most, items};
 use super::needs::{Need, passes};
+use super::surface::Pool;
 use super::time_step::StepRule;
 use super::wall_error::{Expected, Sweep};
 use super::warning::Warning;
+use crate::geometry::Axis;
 use crate::scene::Operator;
 use crate::setup::Setup;
 use crate::solver::layout::Layout;
@@ -104,9 +106,11 @@ pub struct Numbers {
     pub files: Vec<Files>,
     /// Passes.
     pub passes: Vec<Need>,
+    /// What a step passes over.
+    pub passed: Passed,
     /// Cell updates in the whole run.
     pub cell_updates: f64,
-    /// Rough duration on one thread, s.
+    /// Rough duration on one thread, s: up to the end time, which a flow that is steady or at rest does not reach.
     pub estimated_seconds: f64,
     /// What to think about before running.
     pub warnings: Vec<Warning>,
@@ -131,6 +135,11 @@ fn counted(setup: &Setup, layout: Layout) -> (Vec<Item>, u64) {
     (memory, bytes)
 }
 
+/// The axis of the depth, where the fluid is not level from the start.
+fn spreads(pool: Option<Pool>) -> Option<Axis> {
+    pool.filter(|pool| !pool.level).map(|pool| pool.up)
+}
+
 /// The error that the rows of the sweep make likely.
 fn wall_error(basis: &Basis) -> Option<Expected> {
     Sweep::built_in().ok()?.expected(&sheared_layer(basis)?)
@@ -147,6 +156,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
     let stable_speed = given.judged.stable_speed();
     let slip = plug_slip(basis);
     let (memory, bytes) = counted(setup, given.layout);
+    let passed = Passed::of(setup, spreads(*pool));
     let cell_updates = given.fluid_cells as f64 * *steps as f64;
     let (viscous_stress, plastic_stress) = (curve.viscous_stress(u / length), curve.plastic_stress());
     Numbers {
@@ -191,8 +201,9 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         bytes,
         files: Vec::new(),
         passes: passes(scene, setup),
+        passed,
         cell_updates,
-        estimated_seconds: cell_updates / CELL_UPDATES_PER_SECOND,
+        estimated_seconds: passed.seconds(setup, *steps as f64),
         warnings: Vec::new(),
         grains: None,
     }

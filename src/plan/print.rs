@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::cost::{CELL_UPDATES_PER_SECOND, SPHERE_UPDATES_PER_SECOND, millions};
+use super::cost::ON_WHAT;
 use super::disk::total;
 use super::expected;
 use super::numbers::Numbers;
@@ -138,18 +138,19 @@ fn files(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
 fn cost(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
     writeln!(f, "\nCost")?;
     row(f, "cell updates", format_args!("{}", short(n.cell_updates)))?;
+    let passed = &n.passed;
     row(
         f,
-        "rough time",
+        "a step passes",
         format_args!(
-            "{} s on one thread, assuming {} million updates per second{}",
-            short(n.estimated_seconds),
-            millions(CELL_UPDATES_PER_SECOND),
-            n.grains.as_ref().map_or_else(String::new, |_| {
-                format!(" and {} million of spheres", millions(SPHERE_UPDATES_PER_SECOND))
-            })
+            "{} cells with fluid: {} at the surface, {} at walls, {} at cut links",
+            short(passed.fluid_cells),
+            short(passed.interface_cells),
+            short(passed.wall_cells),
+            short(passed.cut_cells)
         ),
-    )
+    )?;
+    row(f, "rough time", format_args!("{} s {ON_WHAT}", short(n.estimated_seconds)))
 }
 
 fn stability(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {

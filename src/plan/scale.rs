@@ -267,4 +267,111 @@ mod tests {
         let stiff = Law::Bingham { sigma0: 1000.0, mu: 1.0 }.curve();
         assert_eq!(collapse_velocity(&*stiff, rho, rho * g, h), 0.0, "2σ0 > 2ρgh: it stands");
     }
+
+    /// What is given in a box of 10 cm in cells of 1 cm; `faces`: its boundaries and how they move; `fluid`, `solids`: more of
+    /// these.
+    fn given(faces: &str, fluid: &str, solids: &str) -> GivenSpeeds {
+        let text = format!(
+            r#"{{ "domain": {{ {faces} "size_m": [0.1, 0.1, 0.1], "spacing_m": 0.01 }},
+            "fluid": {{ "density_kg_per_m3": 1000, "rheology": {{ "newtonian": {{ "viscosity_pa_s": 1 }} }} {fluid} }},
+            "solids": [{solids}], "stop": {{ "end_time_s": 0.1 }} }}"#
+        );
+        let scene = crate::scene::flow_from_json(&text, "given.json", std::path::Path::new(".")).unwrap();
+        let facts = Facts::of(&scene);
+        given_speeds(&facts, &super::super::cells::fill(&facts))
+    }
+
+    /// A wall at rest below, and one with a velocity above.
+    fn wall(velocity: &str) -> String {
+        let moving = format!(r#"{{ "moving_wall": {{ "velocity_m_per_s": {velocity} }} }}"#);
+        format!(r#""boundaries": {{ "z_min": "no_slip", "z_max": {moving} }},"#)
+    }
+
+    const CYLINDER: &str = r#""shape": { "cylinder":
+        { "point_m": [0.05, 0, 0.05], "direction": [0, 1, 0], "radius_m": 0.03 } }"#;
+
+    fn close(found: f64, expected: f64) {
+        // Few operations, each rounded.
+        assert!((found - expected).abs() <= 1e-14 * expected, "{found} {expected}");
+    }
+
+    #[test]
+    fn exact_given_speeds_of_a_scene_at_rest() {
+        let at_rest = given(&wall("[0, 0, 0]"), "", &format!(r#"{{ "name": "post", {CYLINDER} }}"#));
+        assert_eq!((at_rest.fluid, at_rest.faces, at_rest.bodies), (0.0, 0.0, 0.0));
+    }
+
+    /// A wall with the velocity (3, 4, 0) m/s, in time at most 0.5 + 0.25 of it; a solid at rest is no moving body.
+    #[test]
+    fn exact_given_speed_of_a_wall() {
+        let post = format!(r#"{{ "name": "post", {CYLINDER} }}"#);
+        let steady = given(&wall("[3, 4, 0]"), "", &post);
+        close(steady.faces, 5.0);
+        assert_eq!((steady.fluid, steady.bodies), (0.0, 0.0));
+        let motion = r#""motion": { "z_max": { "oscillating":
+            { "frequency_hz": 1, "amplitude": 0.5, "mean": -0.25 } } },"#;
+        close(given(&(wall("[3, 4, 0]") + motion), "", &post).faces, 3.75);
+    }
+
+    /// ω r of the outermost cells of a post that turns about its axis: of those with centres within 3 cm of it, which lie at odd
+    /// halves of 1 cm, the farthest is (2.5, 1.5) cm off.
+    #[test]
+    fn exact_given_speed_of_a_turning_post() {
+        let turns = |axis: &str| format!(r#"{{ "name": "post", {CYLINDER}, "spin_rad_per_s": {axis} }}"#);
+        let rim = (0.025_f64 * 0.025 + 0.015 * 0.015).sqrt();
+        for spin in ["[0, 8, 0]", "[0, -8, 0]"] {
+            let found = given("", "", &turns(spin));
+            close(found.bodies, 8.0 * rim);
+            assert_eq!(found.fluid, 0.0);
+        }
+        let at_a_wall = given(&wall("[0.01, 0, 0]"), "", &turns("[0, 8, 0]"));
+        close(at_a_wall.bodies, 8.0 * rim);
+    }
+
+    /// A post that slides along its axis: in every cell the same; in time twice that.
+    #[test]
+    fn exact_given_speed_of_a_sliding_post() {
+        let slides = |more: &str| {
+            format!(r#"{{ "name": "post", {CYLINDER}, "velocity_m_per_s": [0, -0.5, 0] {more} }}"#)
+        };
+        close(given("", "", &slides("")).bodies, 0.5);
+        let table = r#", "motion": { "table": { "points": [[0, 0], [1, -2], [2, 1]] } }"#;
+        close(given("", "", &slides(table)).bodies, 1.0);
+    }
+
+    /// One cell that moves and turns about a point off its middle: r = (0.03, 0.04, −0.07) m, ω × r = (−0.09, 0.26, 0.11) m/s.
+    #[test]
+    fn exact_given_speed_of_a_cell_about_a_point() {
+        let cell = r#""shape": { "box": { "min_m": [0.04, 0.06, 0.02], "max_m": [0.05, 0.07, 0.03] } }"#;
+        let motion = r#""velocity_m_per_s": [-0.1, 0.2, 0.3], "spin_rad_per_s": [2, -1, 4],
+            "centre_m": [0.015, 0.025, 0.095]"#;
+        let found = given("", "", &format!(r#"{{ "name": "cell", {cell}, {motion} }}"#));
+        close(found.bodies, (0.19_f64 * 0.19 + 0.46 * 0.46 + 0.41 * 0.41).sqrt());
+    }
+
+    /// Largest speed of initial flows in closed form, which some point of the flow has.
+    #[test]
+    fn exact_given_speed_of_the_fluid() {
+        let of = |flow: &str| {
+            let found = given("", &format!(r#", "initial_velocity": {{ {flow} }}"#), "");
+            assert_eq!((found.faces, found.bodies), (0.0, 0.0));
+            found.fluid
+        };
+        close(of(r#""uniform": { "velocity_m_per_s": [0.03, -0.04, 0] }"#), 0.05);
+        // The wave and the mean point the same way.
+        let wave =
+            r#""amplitude_m_per_s": [0, -0.03, 0], "wave_counts": [1, 0, 0], "mean_m_per_s": [0, 0.04, 0]"#;
+        close(of(&format!(r#""shear_wave": {{ {wave} }}"#)), 0.07);
+        // Continuity: half the wave length along x gives twice the speed along y.
+        let vortices = |counts: &str| {
+            format!(
+                r#""taylor_green": {{ "amplitude_m_per_s": 0.02, "normal": "z", "wave_counts": {counts} }}"#
+            )
+        };
+        close(of(&vortices("[2, 1]")), 0.04);
+        close(of(&vortices("[1, 2]")), 0.02);
+        close(of(r#""taylor_green_3d": { "amplitude_m_per_s": 0.02, "wave_counts": [1, 1, 1] }"#), 0.02);
+        // Of A and B alone: √(A² + B² + 2 A B sin kx cos kz).
+        close(of(r#""abc": { "amplitudes_m_per_s": [0.02, -0.01, 0], "wave_counts": [1, 1, 1] }"#), 0.03);
+    }
 }

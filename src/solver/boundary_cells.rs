@@ -19,7 +19,7 @@ pub fn boundary_cells(setup: &Setup) -> u64 {
     fluid.filter(|&cell| touches_boundary(setup, cell)).count() as u64
 }
 
-pub(super) fn touches_boundary(setup: &Setup, cell: usize) -> bool {
+pub(crate) fn touches_boundary(setup: &Setup, cell: usize) -> bool {
     let at = setup.coordinates(cell);
     C[1..].iter().any(|c| match neighbour(setup, at, *c) {
         None => true,
@@ -28,7 +28,7 @@ pub(super) fn touches_boundary(setup: &Setup, cell: usize) -> bool {
 }
 
 /// The cell at an offset of at most one cell along each axis, through periodic faces; `None` beyond others.
-pub(super) fn neighbour(setup: &Setup, at: [usize; 3], offset: [i32; 3]) -> Option<[usize; 3]> {
+pub(crate) fn neighbour(setup: &Setup, at: [usize; 3], offset: [i32; 3]) -> Option<[usize; 3]> {
     let mut cell = at;
     for axis in 0..3 {
         let n = setup.extents[axis];

@@ -76,6 +76,8 @@ pub(crate) struct Situation<L = f64> {
     pub fluid: u8,
     /// Whether \[K6\] acts.
     pub sourced: bool,
+    /// Largest slip over the force of a fluid of one viscosity.
+    pub gain: f64,
     /// Directions that lead into walls, one bit each.
     pub walls: u32,
     /// The wall, where the law by stress acts: at faces, in cells that are full.
@@ -155,6 +157,7 @@ fn slip_velocity<L: Lane, P: Physics>(
         rho,
         omega,
         magnitude: physics.stress_magnitude(&state.m),
+        gain: L::splat(situation.gain),
         // The drag of the five links of a flat wall is u_w/3.
         squares: [state.m.square(), L::splat(9.0) * (drag[0] * drag[0] + drag[1] * drag[1])],
     };

@@ -345,3 +345,6 @@ fn carry(touches: &[(&Candidate, Near)], old: &[WallContact]) -> (Vec<(History, 
     }
     (out.into_iter().map(Option::unwrap_or_default).collect(), used)
 }
+
+#[cfg(test)]
+mod tests;

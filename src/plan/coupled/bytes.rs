@@ -9,7 +9,12 @@ const OWNER: u64 = 4;
 /// Bytes per link between fluid and a covered cell.
 const LINK: u64 = 12;
 /// Links of a sphere over its radius in cells squared: lines of the 18 directions that cross it, 6π + 12√2π.
-pub(super) const LINKS: f64 = 72.0;
+const LINKS: f64 = 72.0;
+
+/// Links between fluid and grains.
+pub(in crate::plan) fn links(grains: &[Grain], dx_m: f64) -> f64 {
+    grains.iter().map(|grain| LINKS * (grain.radius / dx_m) * (grain.radius / dx_m)).sum()
+}
 
 /// Bytes that grains add to a run: owners of cells, links, lists of covered cells.
 pub(in crate::plan) fn added_bytes(setup: &Setup) -> u64 {

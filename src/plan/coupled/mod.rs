@@ -10,7 +10,7 @@ mod warnings;
 
 use std::sync::Arc;
 
-pub(super) use bytes::added_bytes;
+pub(super) use bytes::{added_bytes, links};
 pub use classes::ClassNumbers;
 pub(super) use numbers::Given;
 pub use numbers::{CoupledNumbers, LubricationNumbers, SubStepsFrom};

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::bytes::{LINKS, added_bytes};
+use super::bytes::{added_bytes, links};
 use super::classes::{ClassNumbers, PACKING, classes};
 use super::speed::{HELD_ABOVE, yield_number};
 use super::{Coupled, Findings, ratios};
@@ -231,7 +231,7 @@ fn without_classes(given: &Given) -> CoupledNumbers {
         held,
         balanced: suspension.balanced,
         weightless: std::array::from_fn(|a| suspension.pressure_gradient[a] != 0.0),
-        links: dem.grains.iter().map(|g| LINKS * (g.radius / units.dx_m) * (g.radius / units.dx_m)).sum(),
+        links: links(&dem.grains, units.dx_m),
         bytes: added_bytes(setup),
         sphere_updates: n.sphere_updates,
         shear_rate_per_s: given.scales.shear_rate,

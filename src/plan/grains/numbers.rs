@@ -6,7 +6,7 @@ use super::speed::bytes_per_grain;
 use crate::dem::contact::restitution::hertz_largest_overlap;
 use crate::dem::material::{Compiled, PairLaw};
 use crate::dem::{Dem, Integrator, Pace, Setup, Surface};
-use crate::plan::cost::SPHERE_UPDATES_PER_SECOND;
+use crate::plan::cost;
 use crate::plan::disk::Files;
 use crate::plan::drawn::odd_density;
 use crate::plan::expected::{self, Expectation};
@@ -143,7 +143,7 @@ pub(super) fn numbers(
         bytes: (b.len() as f64 * bytes_per_grain(members as f64 / b.len().max(1) as f64, gear)) as u64,
         files: Vec::new(),
         sphere_updates: updates,
-        estimated_seconds: updates / SPHERE_UPDATES_PER_SECOND,
+        estimated_seconds: cost::of_grains(steps as f64, updates),
         warnings: Vec::new(),
     };
     n.passes = passes(setup, &n);

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::GrainNumbers;
-use crate::plan::cost::{SPHERE_UPDATES_PER_SECOND, millions};
+use crate::plan::cost::ON_WHAT;
 use crate::plan::disk::total;
 use crate::plan::expected;
 use crate::plan::text::{human, passes, row, short, warnings};
@@ -80,13 +80,5 @@ fn cost(f: &mut fmt::Formatter<'_>, n: &GrainNumbers) -> fmt::Result {
     let (bytes, files) = total(&n.files);
     row(f, "files", format_args!("{files}, about {}, besides plots", human(bytes)))?;
     row(f, "sphere updates", format_args!("{}", short(n.sphere_updates)))?;
-    row(
-        f,
-        "rough time",
-        format_args!(
-            "{} s on one thread, assuming {} million sphere updates per second",
-            short(n.estimated_seconds),
-            millions(SPHERE_UPDATES_PER_SECOND)
-        ),
-    )
+    row(f, "rough time", format_args!("{} s {ON_WHAT}", short(n.estimated_seconds)))
 }

@@ -47,8 +47,9 @@ fn side_view(plan: &GrainPlan, size: [f64; 3], grains: &View<'_>) -> Discs {
             (fold(x[d], d), disc)
         })
         .collect();
-    // Far ones first.
-    discs.sort_by(|p, q| q.0.total_cmp(&p.0));
+    // Far ones first: with `across` to the right and `up` upwards, across × up points to the viewer.
+    let towards_viewer = (u + 3 - a) % 3 == 1;
+    discs.sort_by(|p, q| if towards_viewer { p.0.total_cmp(&q.0) } else { q.0.total_cmp(&p.0) });
     Discs {
         title: format!("{}: {:.4} s", plan.numbers.title, grains.time),
         label: "speed".to_owned(),

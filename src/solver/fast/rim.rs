@@ -41,6 +41,8 @@ pub(crate) struct WallTask<'a, P> {
     pub density: &'a [Vec<f64>],
     /// \[K6\].
     pub sourced: bool,
+    /// Largest slip over the force of a fluid of one viscosity.
+    pub gain: f64,
 }
 
 /// What a correction takes from around its cell.
@@ -124,6 +126,7 @@ impl Columns {
                 drag: load(&self.drag),
                 fluid: alike.fluid,
                 sourced: task.sourced,
+                gain: task.gain,
                 walls: alike.walls,
                 flat: alike.flat,
             };

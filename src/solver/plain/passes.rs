@@ -4,6 +4,7 @@ use super::run::{CHUNK, PlainRun};
 use super::surface::SurfacePhysics;
 use crate::boundary::hand_over::Record;
 use crate::boundary::links::{CellKind, Source};
+use crate::boundary::wall_slip::largest_gain;
 use crate::free_surface::Kind;
 use crate::free_surface::ledger::VectorSum;
 use crate::lattice::moments::density_excess;
@@ -60,6 +61,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 drag: record.drag,
                 fluid: self.fluid(at),
                 sourced: self.setup.stress_source,
+                gain: largest_gain(self.setup.free_surface.is_some()),
                 walls: record.walls,
                 flat: record.flat.filter(|_| !self.is_interface(at)),
             };

@@ -79,3 +79,87 @@ impl fmt::Display for SteadyOutcome {
 }
 
 state!(SteadyOutcome: steps residual remaining imbalance swing alternates steady; but tolerance);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nothing beyond a tolerance of 1e-6: every number is at its limit.
+    const AT_ITS_LIMITS: SteadyOutcome = SteadyOutcome {
+        steps: 1000,
+        residual: 1e-6,
+        remaining: 1e-6,
+        tolerance: 1e-6,
+        imbalance: 1.0,
+        swing: Some(1e-6),
+        alternates: false,
+        steady: false,
+    };
+
+    /// The next number above.
+    fn beyond(limit: f64) -> f64 {
+        limit * (1.0 + f64::EPSILON)
+    }
+
+    /// One number beyond its limit, one reason: that of this number.
+    #[test]
+    fn exact_reasons_for_each_number_alone() {
+        assert_eq!(AT_ITS_LIMITS.beyond(), [""; 0]);
+        let cases = [
+            (
+                SteadyOutcome { residual: beyond(1e-6), ..AT_ITS_LIMITS },
+                "changes by 1.00e-6 of the largest speed",
+            ),
+            (
+                SteadyOutcome { remaining: beyond(1e-6), ..AT_ITS_LIMITS },
+                "has 1.00e-6 of the largest speed still",
+            ),
+            (
+                SteadyOutcome { imbalance: beyond(1.0), ..AT_ITS_LIMITS },
+                "gains momentum at 1.00e-6 of the body",
+            ),
+            (
+                SteadyOutcome { swing: Some(beyond(1e-6)), ..AT_ITS_LIMITS },
+                "differs by 1.00e-6 of the largest speed",
+            ),
+        ];
+        for (outcome, reason) in cases {
+            let found = outcome.beyond();
+            assert!(found.len() == 1 && found[0].starts_with(reason), "{found:?}, not {reason}");
+            assert_eq!(outcome.to_string(), format!("not steady: {}", found[0]));
+        }
+        assert_eq!(SteadyOutcome { swing: None, ..AT_ITS_LIMITS }.beyond(), [""; 0]);
+    }
+
+    /// All at once, each with its own number; the momentum as a share of the body force, 300 tolerances.
+    #[test]
+    fn exact_numbers_in_the_reasons() {
+        let all = SteadyOutcome {
+            residual: 2e-4,
+            remaining: 3e-3,
+            imbalance: 300.0,
+            swing: Some(5e-2),
+            ..AT_ITS_LIMITS
+        };
+        let said = all.to_string();
+        let places = ["changes by 2.00e-4 ", "has 3.00e-3 ", "momentum at 3.00e-4 ", "differs by 5.00e-2 "];
+        let places = places.map(|part| said.find(part).unwrap_or_else(|| panic!("{part} in {said}")));
+        assert!(places.is_sorted() && said.matches(", ").count() == 3, "{said}");
+    }
+
+    /// Below rounding a tolerance asks for what no number has, except of the residual, which can be zero.
+    #[test]
+    fn limit_of_a_tolerance_below_rounding() {
+        let nearly = SteadyOutcome {
+            tolerance: 0.0,
+            residual: 0.0,
+            remaining: ROUNDING,
+            swing: Some(ROUNDING),
+            ..AT_ITS_LIMITS
+        };
+        assert_eq!(nearly.beyond(), [""; 0]);
+        assert_eq!(SteadyOutcome { residual: f64::MIN_POSITIVE, ..nearly }.beyond().len(), 1);
+        assert_eq!(SteadyOutcome { remaining: beyond(ROUNDING), ..nearly }.beyond().len(), 1);
+        assert_eq!(SteadyOutcome { swing: Some(beyond(ROUNDING)), ..nearly }.beyond().len(), 1);
+    }
+}

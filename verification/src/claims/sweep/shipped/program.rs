@@ -37,7 +37,7 @@ pub fn plan(scene: &Path) -> Result<Value, VerifyError> {
 /// `lahar run` into a folder, to a time in seconds or to the scene's end.
 pub fn run(scene: &Path, out: &Path, until_s: Option<f64>) -> Result<Finished, VerifyError> {
     let mut command = Command::new(program()?);
-    command.arg("run").arg(scene).arg("--quiet").arg("--out").arg(out).stdin(Stdio::null());
+    command.arg("run").arg(scene).args(["--quiet", "--threads", "1", "--out"]).arg(out).stdin(Stdio::null());
     if let Some(until_s) = until_s {
         command.arg("--until").arg(until_s.to_string());
     }
