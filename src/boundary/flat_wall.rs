@@ -41,6 +41,12 @@ impl FlatWall {
         others(usize::from(self.axis))
     }
 
+    /// Whether a vector is rather along the wall than across it.
+    pub(crate) fn runs_along(self, v: &[f64; 3]) -> bool {
+        let across = v[usize::from(self.axis)];
+        2.0 * across * across < v.iter().map(|v| v * v).sum::<f64>()
+    }
+
     /// The components of a vector along the wall.
     #[inline(always)]
     pub fn tangential<L: Lane>(self, v: &[L; 3]) -> [L; 2] {

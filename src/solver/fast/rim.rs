@@ -4,6 +4,7 @@ use super::element::MOST;
 use super::layout::Layout;
 use super::registers::Registers;
 use crate::boundary::flat_wall::FlatWall;
+use crate::boundary::wall_slip::largest_gain;
 use crate::lattice::Q;
 use crate::lattice::unroll::{directions, three};
 use crate::solver::cell::{Situation, State, wall_correction};
@@ -41,8 +42,8 @@ pub(crate) struct WallTask<'a, P> {
     pub density: &'a [Vec<f64>],
     /// \[K6\].
     pub sourced: bool,
-    /// Largest slip over the force of a fluid of one viscosity.
-    pub gain: f64,
+    /// The body force where there is a surface.
+    pub weight: Option<[f64; 3]>,
 }
 
 /// What a correction takes from around its cell.
@@ -126,7 +127,7 @@ impl Columns {
                 drag: load(&self.drag),
                 fluid: alike.fluid,
                 sourced: task.sourced,
-                gain: task.gain,
+                gain: largest_gain(task.weight.as_ref(), alike.flat),
                 walls: alike.walls,
                 flat: alike.flat,
             };

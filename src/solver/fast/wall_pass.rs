@@ -6,7 +6,6 @@ use super::place::Place;
 use super::rim::{Rim, WallTask};
 use super::run::FastRun;
 use super::walls::correct;
-use crate::boundary::wall_slip::largest_gain;
 use crate::solver::physics::Physics;
 use crate::solver::pool::each;
 
@@ -22,7 +21,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             layout: &self.layout,
             density: &self.density,
             sourced: self.setup.stress_source,
-            gain: largest_gain(self.setup.free_surface.is_some()),
+            weight: self.setup.free_surface.as_ref().map(|_| *force),
         };
         let items = rim.iter_mut().enumerate().filter(|(_, rim)| !rim.is_empty()).collect();
         each(self.pool.as_deref(), items, |(number, rim): (usize, &mut Vec<Rim>)| {

@@ -61,7 +61,7 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 drag: record.drag,
                 fluid: self.fluid(at),
                 sourced: self.setup.stress_source,
-                gain: largest_gain(self.setup.free_surface.is_some()),
+                gain: largest_gain(self.setup.free_surface.as_ref().map(|_| &force), record.flat),
                 walls: record.walls,
                 flat: record.flat.filter(|_| !self.is_interface(at)),
             };
