@@ -27,9 +27,9 @@ pub(crate) struct Scales {
 pub(super) struct GivenSpeeds {
     /// Of the fluid at the start.
     pub fluid: f64,
-    /// Of walls of the box.
+    /// Of the fastest wall of the box or solid.
     pub faces: f64,
-    /// Of solids and grains.
+    /// The same where a solid moves, an upper bound of its speed; and of grains.
     pub bodies: f64,
 }
 
