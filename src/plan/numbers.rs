@@ -153,11 +153,9 @@ pub(super) fn numbers(given: &Given) -> Numbers {
     let solid_cells = setup.solids.iter().filter(|&&s| s != 0).count() as u64;
     let (u, length) = (scales.velocity, scales.length);
     let Judged { speed: speed_lattice, mach, tau_plastic, tau_min, tau_max, .. } = given.judged;
-    let stable_speed = given.judged.stable_speed();
-    let slip = plug_slip(basis);
+    let (stable_speed, slip) = (given.judged.stable_speed(), plug_slip(basis));
     let (memory, bytes) = counted(setup, given.layout);
     let passed = Passed::of(setup, spreads(*pool));
-    let cell_updates = given.fluid_cells as f64 * *steps as f64;
     let (viscous_stress, plastic_stress) = (curve.viscous_stress(u / length), curve.plastic_stress());
     Numbers {
         title: scene.title.clone().unwrap_or_else(|| scene.file.clone()),
@@ -202,7 +200,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         files: Vec::new(),
         passes: passes(scene, setup),
         passed,
-        cell_updates,
+        cell_updates: given.fluid_cells as f64 * *steps as f64,
         estimated_seconds: passed.seconds(setup, *steps as f64),
         warnings: Vec::new(),
         grains: None,
