@@ -38,7 +38,7 @@ pub(crate) fn largest_gain(weight: Option<&[f64; 3]>, flat: Option<FlatWall>) ->
 /// cell if s = T − ρ (u_s + u_f)/3 is that of the wall. The first leaves inertia out, so that at small τ⁺, where 1/(8μ)
 /// is large, a wave of pressure along the wall would drive it; the second is not zero in waves of fluid at rest.
 ///
-/// G bounds how strongly the wall answers where the fluid has a surface ([`largest_gain`]).
+/// G bounds how strongly the wall answers where the fluid has a surface: 8 at walls along which its weight acts, else infinite.
 ///
 /// # Arguments
 /// `wall`: the cell. `fluidity`: 1/μ.
