@@ -23,7 +23,7 @@ pub struct WallStress<L = f64> {
     pub omega: L,
     /// √(½ Q:Q) of the cell.
     pub magnitude: L,
-    /// Largest slip over f of a fluid of one viscosity ([`super::wall_slip::newtonian_slip`]).
+    /// Largest slip over f.
     pub gain: L,
     /// u² of the cell and of the wall.
     pub squares: [L; 2],
@@ -69,7 +69,8 @@ impl<F, O> Fluid<F, O> {
 /// For the wall stress s it solves s + (ρ/3) (S₁(s) + S₂ + m (s − σ_c − f/2) + u_f) = T, u_f the floor part; S₁ is what
 /// the integral of γ̇ over the half cell at the wall has more than the scheme's half step, S₂ what its trapezoid
 /// rule misses further in, m ≥ 0 how S₂ changes with the stress. Then
-/// u_s = 3 (T − s)/ρ − u_f, at least 0 and at most 3T/ρ: the wall never returns more than arrives.
+/// u_s = 3 (T − s)/ρ − u_f, at least 0 and at most 3T/ρ: the wall never returns more than arrives. Nor is it more than G f
+/// where the fluid has a surface ([`WallStress::gain`]).
 ///
 /// # Arguments
 /// `wall`: the cell. `fluid`: what is in it.
@@ -111,6 +112,7 @@ pub fn slip<L: Lane, F: Fn(L) -> Flow<L>, O: Fn(L, L) -> L>(wall: &WallStress<L>
     let s = half.root(active, [linear, third, aim], top, start);
     let most = t / third;
     let slip = L::smaller(L::larger((t - s) / third - wall.floor, zero), most);
+    let slip = L::smaller(slip, wall.gain * f);
     L::select(active, slip, zero)
 }
 

@@ -6,26 +6,40 @@ use crate::lane::Lane;
 use crate::lattice::moments::density_excess;
 use crate::lattice::unroll::{directions, six};
 use crate::lattice::{CS2, Q, W};
+use crate::rheology::Law;
 
-/// Largest slip over f of a fluid of one viscosity below a free surface: beyond it a pool at rest between walls shakes itself.
+/// Largest slip over f below a free surface: beyond it a pool between walls shakes itself.
 ///
 /// Of pools of 2 to 8 cells with plastic τ⁺ = 0.505 to 0.506 (1/(8μ) − κ/ρ of 58 to 74) all grew from rounding to 1e-2 m/s
 /// with [K2] and three of four with [K3], in wall cells that move up and down in turn; with 20 two of four with [K2], with 10
-/// none; without walls along the weight none at all. Set after seeing, with a margin. It binds below τ⁺ = 0.53, and leaves (1 − 8/(1/(8μ) − κ/ρ))/(4h²) of the largest
-/// speed of a channel of half width h uncorrected there: 0.4 % at 8 cells and τ⁺ = 0.505.
+/// none; without walls along the weight none at all. Set after seeing, with a margin. It binds below τ⁺ = 0.53, and leaves
+/// (1 − 8/(1/(8μ) − κ/ρ))/(4h²) of the largest speed of a channel of half width h uncorrected there: 0.4 % at 8 cells and
+/// τ⁺ = 0.505.
 const CALM_GAIN: f64 = 8.0;
 
 /// Largest slip over f, lattice units: [`CALM_GAIN`] at walls along which the weight of a fluid with a surface acts more than
-/// across them; no bound at floors of up to 45°, which press on the fluid, nor without a surface.
+/// across them, unless its yield stress is more than the weight of a cell, which it then holds; no bound at floors of up to
+/// 45°, which press on the fluid, nor without a surface.
 ///
 /// # Arguments
-/// `weight`: the body force where there is a surface. `flat`: the wall.
+/// `weight`: the body force where there is a surface. `law`: the fluid. `flat`: the wall.
 #[must_use]
-pub(crate) fn largest_gain(weight: Option<&[f64; 3]>, flat: Option<FlatWall>) -> f64 {
+pub(crate) fn largest_gain(weight: Option<&[f64; 3]>, law: &Law, flat: Option<FlatWall>) -> f64 {
     match (weight, flat) {
-        (Some(weight), Some(flat)) if flat.runs_along(weight) => CALM_GAIN,
+        (Some(weight), Some(flat)) if flat.runs_along(weight) && !holds(law, weight) => CALM_GAIN,
         _ => f64::INFINITY,
     }
+}
+
+/// Whether a yield stress is more than the weight of a cell.
+fn holds(law: &Law, weight: &[f64; 3]) -> bool {
+    let sigma0 = match *law {
+        Law::Newtonian { .. } | Law::PowerLaw { .. } => 0.0,
+        Law::Bingham { sigma0, .. }
+        | Law::HerschelBulkley { sigma0, .. }
+        | Law::Papanastasiou { sigma0, .. } => sigma0,
+    };
+    sigma0 * sigma0 > weight.iter().map(|f| f * f).sum::<f64>()
 }
 
 /// f min(1/(8μ) − κ/ρ, G), at least 0 and at most 3T/ρ: the slip \[B3\] of a fluid whose viscosity is the same everywhere.

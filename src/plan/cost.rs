@@ -3,9 +3,8 @@
 use serde::Serialize;
 
 use crate::geometry::Axis;
-use crate::lattice::C;
 use crate::setup::Setup;
-use crate::solver::boundary_cells::{neighbour, touches_boundary};
+use crate::solver::boundary_cells::{is_interface, touches_boundary};
 
 /// Seconds on one thread, fast backend, double precision: geometric fits to the first seconds of the scenes in `scenes`
 /// on an AMD EPYC with 512-bit registers (December 2026), 3 µs to 60 ms per step; all of them within 2.2 times. Of a step,
@@ -110,17 +109,6 @@ impl Passed {
             cut_cells: 0.5 * (self.cut_cells + other.cut_cells),
         }
     }
-}
-
-/// Partly filled, or full with an empty cell next to it along an axis.
-fn is_interface(setup: &Setup, cell: usize) -> bool {
-    let Some(surface) = &setup.free_surface else { return false };
-    let at = setup.coordinates(cell);
-    let dry = |c: &[i32; 3]| {
-        let near = neighbour(setup, at, *c).map(|near| setup.index(near));
-        near.is_some_and(|near| !setup.is_solid(near) && surface.fill[near] <= 0.0)
-    };
-    surface.fill[cell] < 1.0 || C[1..7].iter().any(dry)
 }
 
 /// Columns along an axis that hold a cell which is no solid.

@@ -27,6 +27,18 @@ pub(crate) fn touches_boundary(setup: &Setup, cell: usize) -> bool {
     })
 }
 
+/// Whether a cell is at the free surface at time 0: partly filled, or full with an empty cell next to it along an axis.
+pub(crate) fn is_interface(setup: &Setup, cell: usize) -> bool {
+    let Some(surface) = &setup.free_surface else { return false };
+    let at = setup.coordinates(cell);
+    let dry = |c: &[i32; 3]| {
+        let near = neighbour(setup, at, *c).map(|near| setup.index(near));
+        near.is_some_and(|near| !setup.is_solid(near) && surface.fill[near] <= 0.0)
+    };
+    let fill = surface.fill[cell];
+    fill > 0.0 && (fill < 1.0 || C[1..7].iter().any(dry))
+}
+
 /// The cell at an offset of at most one cell along each axis, through periodic faces; `None` beyond others.
 pub(crate) fn neighbour(setup: &Setup, at: [usize; 3], offset: [i32; 3]) -> Option<[usize; 3]> {
     let mut cell = at;

@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+/// Of each thread, bytes: that of a main thread, on which the same steps run without a pool. Pages that are not touched cost nothing.
+const STACK: usize = 8 << 20;
+
 /// As many threads as asked for; `None` for one, and where they cannot be had: results do not depend on it.
 #[must_use]
 pub(crate) fn start(threads: usize) -> Option<Arc<rayon::ThreadPool>> {
-    (threads > 1)
-        .then(|| rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok())
-        .flatten()
-        .map(Arc::new)
+    let pool = || rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build().ok();
+    (threads > 1).then(pool).flatten().map(Arc::new)
 }
 
 /// Runs `steps` on a thread of the pool: a caller outside it would be handed over to it, and back, at every pass of every

@@ -7,7 +7,7 @@ use super::surface::flow::NUMBERS;
 use crate::boundary::cut::cut_count;
 use crate::lattice::{C, Q};
 use crate::setup::{Face, Setup, SurfaceForce, WallRule, YieldTreatment};
-use crate::solver::boundary_cells::{neighbour, touches_boundary};
+use crate::solver::boundary_cells::{is_interface, neighbour, touches_boundary};
 
 /// ω⁺ of the previous step.
 const LAG: u64 = size_of::<f64>() as u64;
@@ -106,17 +106,9 @@ fn special_cells(setup: &Setup, layout: &Layout, held: &[bool]) -> Special {
                 || (at[a] + 1 == n && setup.faces[a][1] != Face::Periodic)
         });
         rim += u64::from(at_face || (!setup.solids.is_empty() && touches_boundary(setup, cell)));
-        if let Some(surface) = &setup.free_surface {
-            let axes = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
-            let dry = |c: &[i32; 3]| {
-                let near = neighbour(setup, at, *c).map(|near| setup.index(near));
-                near.is_some_and(|near| !setup.is_solid(near) && surface.fill[near] <= 0.0)
-            };
-            let fill = surface.fill[cell];
-            let is_interface = fill > 0.0 && (fill < 1.0 || axes.iter().any(dry));
-            interface += u64::from(is_interface);
-            with_surface[layout.find(at).0] |= is_interface;
-        }
+        let at_surface = is_interface(setup, cell);
+        interface += u64::from(at_surface);
+        with_surface[layout.find(at).0] |= at_surface;
     }
     let blocks = with_surface.into_iter().filter(|&any| any).count() as u64;
     Special { rim, interface, blocks }

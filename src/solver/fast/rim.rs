@@ -7,6 +7,7 @@ use crate::boundary::flat_wall::FlatWall;
 use crate::boundary::wall_slip::largest_gain;
 use crate::lattice::Q;
 use crate::lattice::unroll::{directions, three};
+use crate::rheology::Law;
 use crate::solver::cell::{Situation, State, wall_correction};
 use crate::solver::physics::Physics;
 use crate::state::state;
@@ -44,6 +45,8 @@ pub(crate) struct WallTask<'a, P> {
     pub sourced: bool,
     /// The body force where there is a surface.
     pub weight: Option<[f64; 3]>,
+    /// The laws, by fluid number.
+    pub laws: &'a [Law],
 }
 
 /// What a correction takes from around its cell.
@@ -127,7 +130,7 @@ impl Columns {
                 drag: load(&self.drag),
                 fluid: alike.fluid,
                 sourced: task.sourced,
-                gain: largest_gain(task.weight.as_ref(), alike.flat),
+                gain: largest_gain(task.weight.as_ref(), &task.laws[usize::from(alike.fluid)], alike.flat),
                 walls: alike.walls,
                 flat: alike.flat,
             };

@@ -21,6 +21,7 @@ impl<P: Physics, E: Element> FastRun<P, E> {
             layout: &self.layout,
             density: &self.density,
             sourced: self.setup.stress_source,
+            laws: &self.setup.fluids,
             weight: self.setup.free_surface.as_ref().map(|_| *force),
         };
         let items = rim.iter_mut().enumerate().filter(|(_, rim)| !rim.is_empty()).collect();

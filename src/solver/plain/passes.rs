@@ -61,7 +61,11 @@ impl<P: Physics, S: SurfacePhysics> PlainRun<P, S> {
                 drag: record.drag,
                 fluid: self.fluid(at),
                 sourced: self.setup.stress_source,
-                gain: largest_gain(self.setup.free_surface.as_ref().map(|_| &force), record.flat),
+                gain: largest_gain(
+                    self.setup.free_surface.as_ref().map(|_| &force),
+                    &self.setup.law(at),
+                    record.flat,
+                ),
                 walls: record.walls,
                 flat: record.flat.filter(|_| !self.is_interface(at)),
             };
