@@ -1,8 +1,10 @@
 //! Mutation score: how many of a sample of mistakes in lahar its tests notice.
 //!
 //! One build holds the whole sample; the environment chooses one. Each test is run once without any, which shows which
-//! mistakes it reaches; a mistake then meets the tests that reach it, the quickest first, until one fails.
+//! mistakes it reaches; a mistake then meets the tests that reach it, the quickest first, until one fails. A run that was cut
+//! short goes on where it was, as long as no file has changed.
 
+mod kept;
 mod points;
 mod rewrite;
 mod runs;
@@ -10,9 +12,12 @@ mod score;
 mod tree;
 
 use clap::Parser;
+use kept::Kept;
+use runs::Test;
 use score::{Outcome, Row};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 use tree::{Mutant, Part};
 
 /// What the score is of.
@@ -31,6 +36,9 @@ struct Options {
     /// Another seed is another sample.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Tests that each mistake meets at most, s of their running time; those that take longest are left out.
+    #[arg(long, default_value_t = 120)]
+    most_s: u64,
     /// Where the copy is made and built.
     #[arg(long, default_value = "target/mutation")]
     scratch: PathBuf,
@@ -71,21 +79,31 @@ fn run(options: &Options) -> Result<(), String> {
         return Ok(());
     }
     let copy = scratch.join("copy");
+    let sample = format!("{} {} {}", options.folders, options.each, options.seed);
     let mutants = viable(&root, &copy, mutants)?;
-    let programs = runs::programs(&copy)?;
-    let (tests, failed) = runs::all(&programs, &scratch)?;
-    eprintln!(
-        "{} tests of {} programs; left out, since they fail in the copy: {failed:?}",
-        tests.len(),
-        programs.len()
-    );
+    let kept = Kept::open(&scratch, &tree::fingerprint(&root, &sample)?)?;
+    let tests = match kept.tests()? {
+        Some(tests) => tests,
+        None => {
+            let programs = runs::programs(&copy)?;
+            let (tests, failed) = runs::all(&programs, &scratch)?;
+            eprintln!("left out, since they fail in the copy: {failed:?}");
+            kept.keep_tests(&tests)?;
+            tests
+        }
+    };
+    eprintln!("{} tests", tests.len());
+    let mut outcomes = kept.outcomes()?;
     let equivalent = score::equivalent(&root)?;
     let mut rows = Vec::new();
     for mutant in mutants {
-        let outcome = match runs::killer(mutant.number, &tests)? {
-            Some(test) => Outcome::Noticed(test),
-            None if tests.iter().all(|test| !test.reached.contains(&mutant.number)) => Outcome::NotReached,
-            None => Outcome::Survived,
+        let outcome = match outcomes.remove(&mutant.number) {
+            Some(outcome) => outcome,
+            None => {
+                let outcome = outcome(mutant.number, &tests, Duration::from_secs(options.most_s))?;
+                kept.keep_outcome(mutant.number, &outcome)?;
+                outcome
+            }
         };
         let row = Row::new(&mutant, outcome, &equivalent);
         eprintln!("[{}] {row}", rows.len() + 1);
@@ -93,10 +111,18 @@ fn run(options: &Options) -> Result<(), String> {
         // Seeds of failures found with a mistake are not the project's.
         let _ = std::fs::remove_dir_all(copy.join("proptest-regressions"));
     }
-    let text = score::table(&parts, &rows, options.seed);
+    let text = score::table(&parts, &rows, options.seed, options.most_s);
     std::fs::write(root.join("verification/mutation/score.md"), &text).map_err(|error| error.to_string())?;
     print!("{text}");
     Ok(())
+}
+
+/// What becomes of a mistake.
+fn outcome(number: u32, tests: &[Test], most: Duration) -> Result<Outcome, String> {
+    if tests.iter().all(|test| !test.reached.contains(&number)) {
+        return Ok(Outcome::NotReached);
+    }
+    Ok(runs::killer(number, tests, most)?.map_or(Outcome::Survived, Outcome::Noticed))
 }
 
 /// The copy with those mistakes that compile.

@@ -1,20 +1,22 @@
 //! Tests of the copy, each on its own, and what they say of a mistake.
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::io::{BufRead as _, BufReader};
 use std::os::unix::process::CommandExt as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// One test, as it went without a mistake.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Test {
     pub program: PathBuf,
     pub place: PathBuf,
     pub name: String,
     pub took: Duration,
-    /// Its program takes the name of one test only.
+    /// Its program takes the name of one test only, as that of the claims does.
     pub alone: bool,
     pub reached: BTreeSet<u32>,
 }
@@ -69,59 +71,110 @@ fn command(program: &Path, place: &Path) -> Command {
     command
 }
 
-/// Runs every test once and sees what it reaches; those that fail in the copy are named and left out.
+/// A test by its program and name.
+struct Named {
+    program: PathBuf,
+    place: PathBuf,
+    name: String,
+    alone: bool,
+}
+
+/// Runs every test once and sees what it reaches; those that fail in the copy are named and left out. The claims, which write
+/// no files, are run two at a time.
 pub fn all(programs: &[(PathBuf, PathBuf)], scratch: &Path) -> Result<(Vec<Test>, Vec<String>), String> {
-    let (mut tests, mut failed) = (Vec::new(), Vec::new());
+    let mut named = Vec::new();
     for (program, place) in programs {
-        let output = command(program, place)
-            .args(["--list", "--format", "terse"])
-            .stdout(Stdio::piped())
-            .output()
-            .map_err(|error| error.to_string())?;
-        let text = String::from_utf8_lossy(&output.stdout);
-        let names: Vec<&str> = text.lines().filter_map(|line| line.strip_suffix(": test")).collect();
-        let two = command(program, place).args(["--list", "--exact"]).args(names.iter().take(2)).status();
-        let alone = !two.map_err(|error| error.to_string())?.success();
-        for name in names {
-            let folder = scratch.join("reached");
-            let _ = std::fs::remove_dir_all(&folder);
-            std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
-            let mut command = command(program, place);
-            command.args(["--exact", name]).env("LAHAR_REACHED", &folder);
-            let start = Instant::now();
-            let held = ended(command, Duration::from_secs(600))?;
-            let took = start.elapsed();
-            if !matches!(held, Ended::Well) {
-                failed.push(format!("{} {name}", program.display()));
-                continue;
+        named.extend(listed(program, place)?);
+    }
+    let (claims, others): (Vec<Named>, Vec<Named>) = named.into_iter().partition(|test| test.alone);
+    let (mut tests, mut failed) = (Vec::new(), Vec::new());
+    for (tests_of, workers) in [(others, 1), (claims, 2)] {
+        let left = Mutex::new(tests_of.into_iter());
+        let found = Mutex::new(Vec::new());
+        std::thread::scope(|scope| {
+            for worker in 0..workers {
+                let (left, found) = (&left, &found);
+                let folder = scratch.join(format!("reached-{worker}"));
+                scope.spawn(move || {
+                    loop {
+                        let Some(test) = left.lock().unwrap_or_else(PoisonError::into_inner).next() else {
+                            return;
+                        };
+                        let outcome = once(test, &folder);
+                        found.lock().unwrap_or_else(PoisonError::into_inner).push(outcome);
+                    }
+                });
             }
-            let names = std::fs::read_dir(&folder).map_err(|error| error.to_string())?;
-            let reached =
-                names.flatten().filter_map(|entry| entry.file_name().to_str()?.parse().ok()).collect();
-            let (program, place, name) = (program.clone(), place.clone(), name.to_owned());
-            tests.push(Test { program, place, name, took, alone, reached });
+        });
+        for outcome in found.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            match outcome? {
+                Ok(test) => tests.push(test),
+                Err(name) => failed.push(name),
+            }
         }
     }
     tests.sort_by_key(|test| test.took);
     Ok((tests, failed))
 }
 
-/// The test that notices a mistake, or none.
+/// The tests of a program.
+fn listed(program: &Path, place: &Path) -> Result<Vec<Named>, String> {
+    let output = command(program, place)
+        .args(["--list", "--format", "terse"])
+        .stdout(Stdio::piped())
+        .output()
+        .map_err(|error| error.to_string())?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    let names: Vec<&str> = text.lines().filter_map(|line| line.strip_suffix(": test")).collect();
+    let two = command(program, place).args(["--list", "--exact"]).args(names.iter().take(2)).status();
+    let alone = !two.map_err(|error| error.to_string())?.success();
+    let (program, place) = (program.to_owned(), place.to_owned());
+    let named = |name: &&str| Named {
+        program: program.clone(),
+        place: place.clone(),
+        name: (*name).to_owned(),
+        alone,
+    };
+    Ok(names.iter().map(named).collect())
+}
+
+/// A test without a mistake, or its name if it fails. `folder`: where the copy says what is reached.
+fn once(test: Named, folder: &Path) -> Result<Result<Test, String>, String> {
+    let Named { program, place, name, alone } = test;
+    let _ = std::fs::remove_dir_all(folder);
+    std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
+    let mut command = command(&program, &place);
+    command.args(["--exact", &name]).env("LAHAR_REACHED", folder);
+    let start = Instant::now();
+    let held = ended(command, Duration::from_secs(600))?;
+    let took = start.elapsed();
+    if !matches!(held, Ended::Well) {
+        return Ok(Err(format!("{} {name}", program.display())));
+    }
+    let names = std::fs::read_dir(folder).map_err(|error| error.to_string())?;
+    let reached = names.flatten().filter_map(|entry| entry.file_name().to_str()?.parse().ok()).collect();
+    Ok(Ok(Test { program, place, name, took, alone, reached }))
+}
+
+/// The test that notices a mistake, or none. `most`: tests that take longer than this together are not all tried.
 ///
 /// # Errors
 /// A program that does not run tests at all.
-pub fn killer(number: u32, tests: &[Test]) -> Result<Option<String>, String> {
+pub fn killer(number: u32, tests: &[Test], most: Duration) -> Result<Option<String>, String> {
+    let mut spent = Duration::ZERO;
     for batch in batches(number, tests) {
         let first = &batch[0];
+        let sum = total(&batch);
+        spent += sum;
+        if spent > most {
+            break;
+        }
         let mut command = command(&first.program, &first.place);
         command.env("LAHAR_MUTANT", number.to_string());
-        if !first.alone {
-            command.arg("--exact").args(batch.iter().map(|test| &test.name));
-        }
-        let sum: Duration = batch.iter().map(|test| test.took).sum();
+        command.arg("--exact").args(batch.iter().map(|test| &test.name));
         let program = first.program.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         let group = program.rsplit_once('-').map_or(program, |(name, _)| name);
-        match ended(command, Duration::from_secs(60) + 5 * sum)? {
+        match ended(command, Duration::from_secs(30) + 5 * sum)? {
             Ended::Well => {}
             Ended::Failed(name) => return Ok(Some(format!("{group}: {name}"))),
             Ended::Late => return Ok(Some(format!("{group}, which did not end"))),
@@ -131,16 +184,15 @@ pub fn killer(number: u32, tests: &[Test]) -> Result<Option<String>, String> {
 }
 
 /// The tests that reach a mistake, the quickest first: those of one program that follow each other and take up to three
-/// seconds at once, and a program that takes one name only as a whole, last.
+/// seconds at once, where the program takes several names.
 fn batches(number: u32, tests: &[Test]) -> Vec<Vec<&Test>> {
     let mut batches: Vec<Vec<&Test>> = Vec::new();
-    let (alone, quick): (Vec<&Test>, Vec<&Test>) =
-        tests.iter().filter(|test| test.reached.contains(&number)).partition(|test| test.alone);
-    for test in quick.into_iter().chain(alone) {
+    for test in tests.iter().filter(|test| test.reached.contains(&number)) {
         match batches.last_mut() {
             Some(batch)
                 if batch[0].program == test.program
-                    && (test.alone || total(batch) < Duration::from_secs(3)) =>
+                    && !test.alone
+                    && total(batch) < Duration::from_secs(3) =>
             {
                 batch.push(test);
             }
@@ -223,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn quick_tests_go_together_and_whole_programs_last() {
+    fn quick_tests_go_together_where_a_program_takes_several_names() {
         let test = |program: &str, ms: u64, alone: bool| Test {
             program: program.into(),
             place: PathBuf::new(),
@@ -242,7 +294,7 @@ mod tests {
         let names = |batches: Vec<Vec<&Test>>| -> Vec<Vec<String>> {
             batches.iter().map(|batch| batch.iter().map(|test| test.name.clone()).collect()).collect()
         };
-        assert_eq!(names(batches(7, &tests)), [vec!["2", "3"], vec!["4"], vec!["1", "5"]]);
+        assert_eq!(names(batches(7, &tests)), [vec!["1"], vec!["2", "3"], vec!["4"], vec!["5"]]);
         assert!(batches(8, &tests).is_empty());
     }
 }

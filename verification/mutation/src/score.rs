@@ -1,12 +1,13 @@
 //! The table of the score and the list of what nothing noticed.
 
 use crate::tree::{Mutant, Part};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
 /// What became of a mistake.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Outcome {
     /// By this test.
     Noticed(String),
@@ -82,10 +83,11 @@ fn wilson(good: usize, of: usize) -> (f64, f64) {
 }
 
 /// The score of each part and of all, then what nothing noticed.
-pub fn table(parts: &[Part], rows: &[Row], seed: u64) -> String {
+/// `most_s`: seconds of tests that each mistake met at most.
+pub fn table(parts: &[Part], rows: &[Row], seed: u64, most_s: u64) -> String {
     let mut text = format!(
         "# Mutation score\n\nMistakes of one operator or one returned value, drawn from all that the syntax allows (seed {seed}); those that do \
-         not compile are not counted. Written by `lahar-mutation`; what it does is in its `main.rs`.\n\n\
+         not compile are not counted. Each meets the tests that reach it, the quickest first, up to {most_s} s of them. Written by `lahar-mutation`; what it does is in its `main.rs`.\n\n\
          | part | possible | tried | the same value | noticed | score | 95 % |\n| --- | --- | --- | --- | --- | --- | --- |\n"
     );
     let mut line = |name: &str, possible: usize, folder: Option<&str>| {

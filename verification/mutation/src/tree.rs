@@ -49,17 +49,16 @@ impl Part {
             })
             .collect();
         all.sort_by_key(|(file, k, point)| {
-            hash(&format!("{seed}|{file}|{}|{}|{k}", point.function, point.change))
+            hash(format!("{seed}|{file}|{}|{}|{k}", point.function, point.change).as_bytes())
         });
         all.into_iter().take(most).map(|(file, _, point)| (file, point)).collect()
     }
 }
 
 /// FNV-1a, then mixed (Fowler, Noll and Vo; Steele et al. 2014).
-fn hash(text: &str) -> u64 {
-    let sum = text
-        .bytes()
-        .fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
+fn hash(bytes: &[u8]) -> u64 {
+    let step = |h: u64, b: &u8| (h ^ u64::from(*b)).wrapping_mul(0x0100_0000_01b3);
+    let sum = bytes.iter().fold(0xcbf2_9ce4_8422_2325_u64, step);
     let mixed = (sum ^ (sum >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb)
 }
@@ -81,6 +80,18 @@ fn tracked(root: &Path) -> Result<Vec<String>, String> {
         Command::new("git").args(arguments).current_dir(root).output().map_err(|error| error.to_string())?;
     let text = String::from_utf8(output.stdout).map_err(|error| error.to_string())?;
     Ok(text.lines().filter(|file| root.join(file).is_file()).map(str::to_owned).collect())
+}
+
+/// What a score depends on: the sample and every file of the project but those of the score.
+pub fn fingerprint(root: &Path, sample: &str) -> Result<String, String> {
+    let mut parts = vec![sample.to_owned()];
+    for file in tracked(root)? {
+        if file != "verification/mutation/score.md" && file != "verification/mutation/equivalent.txt" {
+            let bytes = std::fs::read(root.join(&file)).map_err(|error| format!("{file}: {error}"))?;
+            parts.push(format!("{file} {:016x}", hash(&bytes)));
+        }
+    }
+    Ok(format!("{:016x}", hash(parts.join("\n").as_bytes())))
 }
 
 /// Writes the copy; files that are as they should be stay untouched.
