@@ -77,12 +77,12 @@ mod tests {
         assert!(kept.tests().unwrap().is_none() && kept.outcomes().unwrap().is_empty());
         kept.keep_tests(&[]).unwrap();
         kept.keep_outcome(3, &Outcome::Noticed("by this".into())).unwrap();
-        kept.keep_outcome(5, &Outcome::Survived).unwrap();
+        kept.keep_outcome(5, &Outcome::Survived { left_out: 2 }).unwrap();
         let again = Kept::open(&scratch, "a").unwrap();
         assert!(again.tests().unwrap().is_some_and(|tests| tests.is_empty()));
         let outcomes = again.outcomes().unwrap();
         assert_eq!(outcomes[&3], Outcome::Noticed("by this".into()));
-        assert_eq!(outcomes[&5], Outcome::Survived);
+        assert_eq!(outcomes[&5], Outcome::Survived { left_out: 2 });
         let other = Kept::open(&scratch, "b").unwrap();
         assert!(other.tests().unwrap().is_none() && other.outcomes().unwrap().is_empty());
         std::fs::remove_dir_all(&scratch).unwrap();

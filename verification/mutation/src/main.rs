@@ -79,7 +79,7 @@ fn run(options: &Options) -> Result<(), String> {
         return Ok(());
     }
     let copy = scratch.join("copy");
-    let sample = format!("{} {} {}", options.folders, options.each, options.seed);
+    let sample = format!("{} {} {} {}", options.folders, options.each, options.seed, options.most_s);
     let mutants = viable(&root, &copy, mutants)?;
     let kept = Kept::open(&scratch, &tree::fingerprint(&root, &sample)?)?;
     let tests = match kept.tests()? {
@@ -122,7 +122,10 @@ fn outcome(number: u32, tests: &[Test], most: Duration) -> Result<Outcome, Strin
     if tests.iter().all(|test| !test.reached.contains(&number)) {
         return Ok(Outcome::NotReached);
     }
-    Ok(runs::killer(number, tests, most)?.map_or(Outcome::Survived, Outcome::Noticed))
+    Ok(match runs::killer(number, tests, most)? {
+        Ok(test) => Outcome::Noticed(test),
+        Err(left_out) => Outcome::Survived { left_out },
+    })
 }
 
 /// The copy with those mistakes that compile.

@@ -79,8 +79,8 @@ struct Named {
     alone: bool,
 }
 
-/// Runs every test once and sees what it reaches; those that fail in the copy are named and left out. The claims, which write
-/// no files, are run two at a time.
+/// Runs every test once and sees what it reaches; those that fail in the copy are named and left out. The claims are run two at
+/// a time: they write no files, so that they do not meet.
 pub fn all(programs: &[(PathBuf, PathBuf)], scratch: &Path) -> Result<(Vec<Test>, Vec<String>), String> {
     let mut named = Vec::new();
     for (program, place) in programs {
@@ -156,31 +156,34 @@ fn once(test: Named, folder: &Path) -> Result<Result<Test, String>, String> {
     Ok(Ok(Test { program, place, name, took, alone, reached }))
 }
 
-/// The test that notices a mistake, or none. `most`: tests that take longer than this together are not all tried.
+/// The test that notices a mistake, or how many of those that reach it were left out. `most`: of the tests' time; once they
+/// would take longer together, the rest is left out.
 ///
 /// # Errors
 /// A program that does not run tests at all.
-pub fn killer(number: u32, tests: &[Test], most: Duration) -> Result<Option<String>, String> {
+pub fn killer(number: u32, tests: &[Test], most: Duration) -> Result<Result<String, usize>, String> {
     let mut spent = Duration::ZERO;
-    for batch in batches(number, tests) {
+    let batches = batches(number, tests);
+    for (k, batch) in batches.iter().enumerate() {
         let first = &batch[0];
-        let sum = total(&batch);
+        let sum = total(batch);
         spent += sum;
         if spent > most {
-            break;
+            return Ok(Err(batches[k..].iter().map(Vec::len).sum()));
         }
         let mut command = command(&first.program, &first.place);
         command.env("LAHAR_MUTANT", number.to_string());
         command.arg("--exact").args(batch.iter().map(|test| &test.name));
         let program = first.program.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         let group = program.rsplit_once('-').map_or(program, |(name, _)| name);
+        // A start of a program takes less than a second, and a busy machine less than five times as long.
         match ended(command, Duration::from_secs(30) + 5 * sum)? {
             Ended::Well => {}
-            Ended::Failed(name) => return Ok(Some(format!("{group}: {name}"))),
-            Ended::Late => return Ok(Some(format!("{group}, which did not end"))),
+            Ended::Failed(name) => return Ok(Ok(format!("{group}: {name}"))),
+            Ended::Late => return Ok(Ok(format!("{group}, which did not end"))),
         }
     }
-    Ok(None)
+    Ok(Err(0))
 }
 
 /// The tests that reach a mistake, the quickest first: those of one program that follow each other and take up to three
@@ -272,6 +275,24 @@ mod tests {
         assert!(matches!(shell("exit 101"), Ok(Ended::Failed(_))));
         assert!(matches!(shell("sleep 60"), Ok(Ended::Late)));
         assert!(shell("exit 2").is_err(), "arguments that are not understood say nothing of a mistake");
+    }
+
+    #[test]
+    fn what_takes_too_long_is_left_out_and_counted() {
+        let test = |program: &str, ms: u64| Test {
+            program: program.into(),
+            place: PathBuf::from("."),
+            name: "a".into(),
+            took: Duration::from_millis(ms),
+            alone: true,
+            reached: BTreeSet::from([7]),
+        };
+        let tests = [test("true", 2), test("false", 4)];
+        let killed = |ms: u64| killer(7, &tests, Duration::from_millis(ms)).unwrap();
+        assert_eq!(killed(1), Err(2));
+        assert_eq!(killed(5), Err(1));
+        assert!(killed(6).is_ok_and(|by| by.starts_with("false: ")));
+        assert_eq!(killer(8, &tests, Duration::from_millis(1)).unwrap(), Err(0));
     }
 
     #[test]

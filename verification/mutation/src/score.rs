@@ -11,7 +11,8 @@ use std::path::Path;
 pub enum Outcome {
     /// By this test.
     Noticed(String),
-    Survived,
+    /// Tests that reach it and were left out, since they would have taken too long.
+    Survived { left_out: usize },
     /// No test comes by.
     NotReached,
     /// The value is the same, for this reason.
@@ -52,7 +53,9 @@ impl Row {
         let Mutant { folder, file, point, .. } = mutant;
         let reason = equivalent.get(&key(file, &point.function, &point.change));
         let outcome = match (outcome, reason) {
-            (Outcome::Survived | Outcome::NotReached, Some(reason)) => Outcome::Equivalent(reason.clone()),
+            (Outcome::Survived { .. } | Outcome::NotReached, Some(reason)) => {
+                Outcome::Equivalent(reason.clone())
+            }
             (outcome, _) => outcome,
         };
         let place = format!("{file} | {}", point.function);
@@ -65,7 +68,9 @@ impl fmt::Display for Row {
         let Self { place, change, .. } = self;
         match &self.outcome {
             Outcome::Noticed(test) => write!(f, "{place} | {change}: noticed by {test}"),
-            Outcome::Survived => write!(f, "{place} | {change}: SURVIVED"),
+            Outcome::Survived { left_out } => {
+                write!(f, "{place} | {change}: SURVIVED, {left_out} tests left out")
+            }
             Outcome::NotReached => write!(f, "{place} | {change}: NOT REACHED"),
             Outcome::Equivalent(reason) => write!(f, "{place} | {change}: no mistake, {reason}"),
         }
@@ -87,7 +92,8 @@ fn wilson(good: usize, of: usize) -> (f64, f64) {
 pub fn table(parts: &[Part], rows: &[Row], seed: u64, most_s: u64) -> String {
     let mut text = format!(
         "# Mutation score\n\nMistakes of one operator or one returned value, drawn from all that the syntax allows (seed {seed}); those that do \
-         not compile are not counted. Each meets the tests that reach it, the quickest first, up to {most_s} s of them. Written by `lahar-mutation`; what it does is in its `main.rs`.\n\n\
+         not compile are not counted. Each meets the tests that reach it, the quickest first, up to {most_s} s of them; what \
+         only later ones would notice counts as not noticed, so a score is a lower bound. Written by `lahar-mutation`; what it does is in its `main.rs`.\n\n\
          | part | possible | tried | the same value | noticed | score | 95 % |\n| --- | --- | --- | --- | --- | --- | --- |\n"
     );
     let mut line = |name: &str, possible: usize, folder: Option<&str>| {
@@ -106,11 +112,16 @@ pub fn table(parts: &[Part], rows: &[Row], seed: u64, most_s: u64) -> String {
         line(&part.folder, part.count(), Some(&part.folder));
     }
     line("all", parts.iter().map(Part::count).sum(), None);
-    for (title, wanted) in [("Survived", Outcome::Survived), ("Reached by no test", Outcome::NotReached)] {
-        text += &format!("\n## {title}\n\n");
-        for row in rows.iter().filter(|row| row.outcome == wanted) {
-            text += &format!("- {} | {}\n", row.place, row.change);
+    text += "\n## Survived\n\n";
+    for row in rows {
+        if let Outcome::Survived { left_out } = row.outcome {
+            let rest = if left_out > 0 { format!(" (tests left out: {left_out})") } else { String::new() };
+            text += &format!("- {} | {}{rest}\n", row.place, row.change);
         }
+    }
+    text += "\n## Reached by no test\n\n";
+    for row in rows.iter().filter(|row| row.outcome == Outcome::NotReached) {
+        text += &format!("- {} | {}\n", row.place, row.change);
     }
     text += "\n## The same value\n\n";
     for row in rows {
