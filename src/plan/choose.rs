@@ -15,10 +15,11 @@ pub(super) fn choose(flow: &Flow, pool: Option<&Pool>) -> Result<(f64, StepRule)
     let dx = scene.domain.spacing_m;
     let rho = scene.fluid.density_kg_per_m3;
     let numerics = &scene.numerics;
+    // A given step needs it, too: without it nothing can be said of τ.
+    let viscosity = reference_viscosity(facts, scales).ok_or(PlanProblem::NoShearRate)?;
     if let Some(dt) = numerics.time_step_s {
         return Ok((dt, StepRule::Given));
     }
-    let viscosity = reference_viscosity(facts, scales).ok_or(PlanProblem::NoVelocityScale)?;
     // [L6]: Δt = (τ − ½) ρ Δx² / (3 μ).
     let of_tau = |tau: f64| (tau - 0.5) / 3.0 * rho * dx * dx / viscosity;
     let of_speed = |u: f64| u * dx / scales.velocity;
@@ -27,7 +28,7 @@ pub(super) fn choose(flow: &Flow, pool: Option<&Pool>) -> Result<(f64, StepRule)
     }
     if let Some(mach) = numerics.target_mach {
         if scales.velocity <= 0.0 {
-            return Err(PlanProblem::NoVelocityScale);
+            return Err(PlanProblem::NoSpeed);
         }
         return Ok((of_speed(mach / 3.0_f64.sqrt()), StepRule::TargetMach));
     }

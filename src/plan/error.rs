@@ -140,13 +140,20 @@ pub enum PlanProblem {
         short(*speed), relaxation(*tau), short(*limit)
     )]
     Unstable { speed: f64, limit: f64, tau: f64, operator: Operator, ways: Ways },
-    /// Nothing says how fast the flow is.
+    /// Nothing says at which shear rate the viscosity is to be taken.
     #[error(
         "no velocity scale: nothing drives the fluid, and its viscosity depends on the shear rate\n  \
-         allowed: flows whose speed can be estimated, or a time step [L6]\n  \
-         way out: give `numerics.reference_velocity_m_per_s` or `numerics.time_step_s`"
+         allowed: flows whose speed can be estimated, or a speed [L6]\n  \
+         way out: give `numerics.reference_velocity_m_per_s`"
     )]
-    NoVelocityScale,
+    NoShearRate,
+    /// Nothing says how fast the flow is.
+    #[error(
+        "no velocity scale: nothing drives the fluid, so that no step has this Mach number\n  \
+         allowed: flows whose speed can be estimated, or a speed [L6]\n  \
+         way out: give `numerics.reference_velocity_m_per_s`, or leave `numerics.target_mach` out"
+    )]
+    NoSpeed,
     /// Steps that cannot be counted.
     #[error(
         "{steps:.3e} steps of {dt:.3e} s to reach {end:.3e} s\n  \
