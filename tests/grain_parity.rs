@@ -131,6 +131,33 @@ fn grains_that_leave_give_their_cells_back() {
     assert_eq!(differences(&*plain, &*fast), Vec::<&str>::new());
 }
 
+/// A fingerprint that left grains out would call runs equal whose grains differ.
+#[test]
+fn fingerprints_tell_grains_apart() {
+    let start = |change: &dyn Fn(&mut Suspension)| {
+        let mut setup = with_grains(false, GrainWall::HalfWay, Law::Newtonian { mu: 0.1 }, 1);
+        let mut suspension =
+            setup.grains.take().map(Arc::unwrap_or_clone).unwrap_or_else(|| panic!("grains"));
+        change(&mut suspension);
+        setup.grains = Some(Arc::new(suspension));
+        [&Plain as &dyn Backend, &Fast::default()]
+            .map(|backend| backend.start(&setup).unwrap_or_else(|error| panic!("{error}")).fingerprint())
+    };
+    let as_it_is = start(&|_| ());
+    assert_eq!(as_it_is[0], as_it_is[1]);
+    // Each too small to change a cell.
+    let changes: [&dyn Fn(&mut Suspension); 4] = [
+        &|s| s.dem.grains[3].position.x += 1e-12,
+        &|s| s.dem.grains[3].velocity.y += 1e-12,
+        &|s| s.dem.grains[3].spin.z += 1e-12,
+        &|s| s.dem.grains[0].orientation *= dem::Orientation::from_euler_angles(1e-12, 0.0, 0.0),
+    ];
+    for (k, change) in changes.into_iter().enumerate() {
+        let changed = start(change);
+        assert!(changed[0] != as_it_is[0] && changed[0] == changed[1], "change {k}");
+    }
+}
+
 /// A solid in its place beside grains, with films of less than a cell in between, with and without gas.
 #[test]
 fn parity_of_grains_beside_a_solid_in_place() {

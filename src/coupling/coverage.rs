@@ -342,3 +342,29 @@ fn insert(list: &mut Vec<u32>, cell: u32) {
         list.insert(at, cell);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rheology::Law;
+
+    #[test]
+    fn bytes_grow_with_what_is_covered() {
+        let setup = Setup::periodic([8; 3], Law::Newtonian { mu: 0.1 });
+        let mut coverage = Coverage::new(setup.cells(), 2);
+        let bare = 512 * 4 + 2 * size_of::<Cover>() as u64;
+        assert_eq!(coverage.bytes(), bare);
+        let balls = |grain: usize| vec![Ball { centre: [2.0 + 4.0 * grain as f64, 4.0, 4.0], radius: 1.7 }];
+        coverage.update(&setup, &Box3::new(&setup), &balls, &|_, _| 0.0);
+        let held: usize = (0..2)
+            .map(|grain| {
+                let cover = coverage.of(grain);
+                assert!(cover.cells.len() > 10 && cover.links.len() > 50);
+                4 * cover.cells.len() + size_of::<Link>() * cover.links.len() + size_of::<L3>()
+            })
+            .sum();
+        // A list that grows holds at most twice what is in it, and four entries.
+        let least = bare + held as u64;
+        assert!((least..=2 * least).contains(&coverage.bytes()), "{} {least}", coverage.bytes());
+    }
+}

@@ -1,5 +1,6 @@
 //! Gaps between grains, and between grains and walls, and what the fluid does in them \[C5\].
 
+use super::scales::Scales;
 use super::scenery::{at_rest, near, pivot};
 use crate::dem::bodies::{Bodies, Member};
 use crate::dem::neighbours::PairList;
@@ -10,7 +11,6 @@ use crate::setup::Setup;
 use crate::setup::suspension::lubrication::{STIFFEST, Tangential, tangential};
 use crate::setup::suspension::{Lubrication, Suspension};
 use crate::state::state;
-use crate::units::Units;
 
 /// How far a member may move before the list is made anew, cells.
 const MARGIN: f64 = 0.25;
@@ -35,26 +35,6 @@ struct Meeting {
     gap: f64,
     /// 1/(1/m₁ + 1/m₂), lattice units; infinite between driven grains and walls, which no step can throw off.
     mass: f64,
-}
-
-/// SI to lattice units.
-struct Scales {
-    length: f64,
-    speed: f64,
-    spin: f64,
-    /// Of 1/m.
-    inverse_mass: f64,
-}
-
-impl Scales {
-    fn of(units: &Units) -> Self {
-        Self {
-            length: 1.0 / units.dx_m,
-            speed: 1.0 / units.velocity_unit(),
-            spin: units.dt_s,
-            inverse_mass: units.rho0_kg_per_m3 * units.dx_m * units.dx_m * units.dx_m,
-        }
-    }
 }
 
 /// Force on the first, torques on both, lattice units.

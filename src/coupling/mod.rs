@@ -35,6 +35,7 @@ mod predict;
 mod pressure;
 mod refill;
 mod report;
+mod scales;
 mod scenery;
 mod subcycle;
 

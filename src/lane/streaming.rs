@@ -7,6 +7,8 @@
 //! The standard library offers such stores only for raw pointers, hence the `unsafe` here; the rest of it is in
 //! `solver/fast` (`x86`, `stores`, `instructions`).
 
+#![allow(unsafe_code, reason = "intrinsics without a safe form")]
+
 /// Eight numbers, as long and as aligned as a cache line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]

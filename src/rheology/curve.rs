@@ -159,6 +159,16 @@ mod tests {
         assert_eq!(HB.channel_velocity(4.0, 0.5), 0.0);
     }
 
+    #[test]
+    fn exact_viscosity_at_rest() {
+        let law = |sigma0, n| PowerCurve { sigma0, n, ..HB };
+        assert_eq!(HB.viscosity_at_rest(), f64::INFINITY);
+        for n in [0.5, 1.0, 2.0] {
+            assert_eq!(law(2.0, n).viscosity_at_rest(), f64::INFINITY);
+        }
+        assert_eq!([0.5, 1.0, 2.0].map(|n| law(0.0, n).viscosity_at_rest()), [f64::INFINITY, 3.0, 0.0]);
+    }
+
     /// A law that gives no closed form.
     struct Bare(PowerCurve);
 
@@ -183,9 +193,19 @@ mod tests {
                 // 60 halvings of an octave, and the rounding of a power with an exponent of up to 10.
                 let (found, rate) = (bare.shear_rate_at(sigma), exact.shear_rate_at(sigma));
                 assert!((found / rate - 1.0).abs() < 1e-13, "{n} {sigma}: {found} {rate}");
-                let (found, speed) = (bare.channel_velocity(sigma, 1.0), exact.channel_velocity(sigma, 1.0));
-                assert!((found / speed - 1.0).abs() < 1e-3, "{n} {sigma}: {found} {speed}");
+                for gap in [1.0, 0.5] {
+                    let force = sigma / gap;
+                    let (found, speed) =
+                        (bare.channel_velocity(force, gap), exact.channel_velocity(force, gap));
+                    assert!((found / speed - 1.0).abs() < 1e-3, "{n} {sigma} {gap}: {found} {speed}");
+                }
             }
+            assert_eq!(bare.constant_plastic_viscosity(), None);
+            // One power and one division against one power.
+            let (found, mu) = (bare.plastic_viscosity(4.0), exact.plastic_viscosity(4.0));
+            assert!((found / mu - 1.0).abs() < 1e-14, "{n}: {found} {mu}");
+            assert!((bare.apparent_viscosity(4.0) - (mu + 0.5)).abs() < 1e-14 * (mu + 0.5), "{n}");
+            assert_eq!((bare.shear_rate_at(f64::NAN), bare.channel_velocity(f64::NAN, 1.0)), (0.0, 0.0));
             assert_eq!((bare.shear_rate_at(1.0), bare.channel_velocity(1.0, 1.0)), (0.0, 0.0));
         }
     }

@@ -211,6 +211,21 @@ mod tests {
         }
     }
 
+    #[test]
+    fn apparent_viscosity_is_stress_over_rate() {
+        for n in [0.5, 1.0, 1.7] {
+            let law = Papanastasiou { sigma0: 0.3, k: 0.2, n, m: 5.0 };
+            for rate in [0.02_f64, 0.2, 3.0] {
+                let (found, stress): (f64, f64) = (law.apparent_viscosity(rate), law.stress(rate));
+                // Some roundings of each.
+                assert!(
+                    (found * rate / stress - 1.0).abs() < 1e-14,
+                    "n = {n}, rate {rate}: {found} {stress}"
+                );
+            }
+        }
+    }
+
     /// ∫ σ dγ̇ by Simpson's rule.
     fn between(law: &Papanastasiou, low: f64, high: f64) -> f64 {
         let at = |rate: f64| -> f64 { law.stress(rate) };

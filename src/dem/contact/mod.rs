@@ -351,3 +351,26 @@ impl<'a, E: ContactEquations> Carried<'a, E> {
         t
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn springs_turn_with_the_normal_and_lose_what_is_along_it_where_it_turns_over() {
+        let (x, y, z) = (V3::x(), V3::y(), V3::z());
+        // A quarter turn about y takes z to x and −x to z; a twist of 0.02 about x turns z towards −y.
+        let turned = StandardContact.rotate_spring(&-x, &z, &x, 0.0);
+        assert!((turned - z).norm() < 1e-15, "{turned}");
+        let twisted = StandardContact.rotate_spring(&z, &x, &x, 0.02);
+        assert!((twisted - (z * (1.0 - 2e-4) - y * 0.02)).norm() < 1e-15, "{twisted}");
+        // Turned over: what is along the new normal is left out.
+        let n = (z + x * 0.01).normalize();
+        let spring = V3::new(0.5, 0.25, 0.125);
+        let left = StandardContact.rotate_spring(&spring, &-n, &n, 0.0);
+        assert!(
+            left.dot(&n).abs() < 1e-15 && (left - (spring - n * spring.dot(&n))).norm() < 1e-15,
+            "{left}"
+        );
+    }
+}

@@ -133,6 +133,22 @@ fn sieve(curve: &[(f64, f64)], random: &mut Random) -> f64 {
 mod tests {
     use super::*;
 
+    #[test]
+    fn log_normal_sizes_lie_within_their_bounds_and_about_their_median() {
+        let (median, deviation) = (2.0, 0.5);
+        let sizes = Sizes::LogNormal { median, deviation, least: 1.5, largest: 3.0 };
+        let mut random = Random::new(5);
+        let drawn: Vec<f64> = (0..20_000).map(|_| sizes.draw(&mut random)).collect();
+        assert!(drawn.iter().all(|r| (1.5..=3.0).contains(r)));
+        // Φ(ln(r/median)/deviation): of all that lies within, (0.5 − 0.2825)/(0.7913 − 0.2825) is below the median. Five
+        // standard errors of a share.
+        let below = drawn.iter().filter(|&&r| r < median).count() as f64 / 20_000.0;
+        assert!((below - 0.4275).abs() < 5.0 * (0.25_f64 / 20_000.0).sqrt(), "{below}");
+        // Bounds that nothing falls between.
+        let sizes = Sizes::LogNormal { median, deviation: 1e3, least: 2.0, largest: 2.0 };
+        assert_eq!(sizes.draw(&mut random), 2.0);
+    }
+
     /// The drawn grains, weighed, give the sieve curve back within 5 standard errors (bootstrap by class).
     #[test]
     fn reference_sieve_curve_returned() {

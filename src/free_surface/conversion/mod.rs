@@ -99,3 +99,6 @@ fn surviving(cells: &impl Cells, marks: &BTreeMap<u32, Mark>) -> (BTreeSet<u32>,
     let emptied = marks.keys().copied().filter(|&cell| !fills(cell) && !reverts(cell)).collect();
     (filled, emptied)
 }
+
+#[cfg(test)]
+mod tests;

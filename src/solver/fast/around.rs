@@ -3,19 +3,17 @@
 use super::block::{Block, numbers_around};
 use super::element::{Aligned, Element};
 use super::layout::{Layout, NONE};
-use super::stores;
 
 /// The populations around a block: 27 slices, the block's own where there is none.
 pub(crate) struct Around<'a, E> {
-    /// As [`Layout::around`].
-    pub slices: [&'a [E]; 27],
+    /// As [`Layout::around`]; each holds a whole block.
+    slices: [&'a [E]; 27],
 }
 
 impl<'a, E: Element> Around<'a, E> {
     /// Around a block.
     pub fn new(old: &'a [Aligned<E>], layout: &Layout, blocks: &[Block], number: usize) -> Self {
         let own = old[number].get();
-        // What the unchecked loads of `sources::gather` rely on.
         assert_eq!(own.len(), layout.block_len());
         let numbers = numbers_around(layout, blocks[number].place);
         let slices = numbers.map(|n| match n {
@@ -37,9 +35,15 @@ impl<'a, E: Element> Around<'a, E> {
         (next.get().len() == old[number].get().len()).then(|| Self::new(old, layout, blocks, number + 1))
     }
 
-    /// The populations of one of the 27.
+    /// All 27, each of [`Self::block_len`] numbers.
     #[inline(always)]
-    pub(crate) fn entry(&self, at: usize) -> &'a [E] {
-        stores::entry(&self.slices, at)
+    pub(crate) fn all(&self) -> &[&'a [E]; 27] {
+        &self.slices
+    }
+
+    /// Numbers in each of the 27: those of the block itself, which all others were compared with.
+    #[inline(always)]
+    pub(crate) fn block_len(&self) -> usize {
+        self.slices[13].len()
     }
 }

@@ -1,5 +1,7 @@
 //! Instruction sets: the same pass compiled for each, chosen when a run starts.
 
+#![allow(unsafe_code, reason = "calls of code for an instruction set, after the processor has been asked")]
+
 use super::kernel::pass;
 use super::rim::{Alike, Columns, WallTask, correct_group};
 use super::sources::Sources;

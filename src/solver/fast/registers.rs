@@ -14,11 +14,6 @@ pub(crate) trait Registers: Copy + Send + Sync + 'static {
 
     /// First [`Self::WIDTH`] numbers of a slice.
     fn load(from: &[Self::Element]) -> Self::Pack;
-    /// Numbers from a place on that is known to be inside; see `stores::numbers`.
-    #[inline(always)]
-    fn load_at(from: &[Self::Element], at: usize) -> Self::Pack {
-        Self::load(super::stores::numbers(from, at, Self::WIDTH))
-    }
     /// Into the first numbers of a slice.
     fn store(pack: Self::Pack, to: &mut [Self::Element]);
     /// As [`Self::store`], past the cache where a pack is a whole line that starts at a multiple of its size.

@@ -1,5 +1,7 @@
 //! Where ordinary packs are gathered from: the same for every block, hence tabulated.
 
+#![allow(unsafe_code, reason = "loads whose places are checked once, when they are tabulated")]
+
 use super::around::Around;
 use super::element::{Element, index};
 use super::layout::Layout;
@@ -26,6 +28,8 @@ pub(crate) struct Sources {
     behind: u32,
     /// Lines of other blocks.
     far: Vec<Line>,
+    /// Numbers in a block; all lines above end below it, and their entries below 27.
+    block_len: usize,
 }
 
 impl Sources {
@@ -61,7 +65,11 @@ impl Sources {
         far.extend(
             (0..Q).filter(|&i| C[i][0] == -1 && edge[i].0 > from[i].0 && from[i].0 != 13).map(|i| edge[i]),
         );
-        Self { from, edge, cells, before: x as u32, behind: (row - x - E::PER_LINE) as u32, far }
+        // What the unchecked loads of `gather` rely on.
+        let block_len = layout.block_len();
+        let inside = |line: &Line| line.0 < 27 && line.1 as usize + E::PER_LINE <= block_len;
+        assert!(from.iter().chain(&edge).all(inside), "a pack is gathered from outside the blocks");
+        Self { from, edge, cells, before: x as u32, behind: (row - x - E::PER_LINE) as u32, far, block_len }
     }
 
     /// Asks for the lines of other blocks long before they are used: they come from memory, without a pattern
@@ -71,13 +79,26 @@ impl Sources {
     #[inline(always)]
     pub(crate) fn prefetch_far<E: Element>(&self, around: &Around<E>) {
         for &(entry, base) in &self.far {
-            stores::prefetch_far(around.entry(entry as usize), base as usize);
+            stores::prefetch_far(around.all()[entry as usize], base as usize);
         }
     }
 }
 
 /// Packs between moving a line to the first-level cache and using it.
 const NEAR: usize = 2;
+
+/// [`Registers::WIDTH`] numbers of the neighbourhood; a line and a place in it.
+///
+/// # Safety
+/// The entry of the line is below 27, it ends below [`Around::block_len`], and `part + WIDTH` is at most
+/// [`Element::PER_LINE`].
+#[inline(always)]
+unsafe fn load<R: Registers>(around: &Around<R::Element>, line: Line, part: usize) -> R::Pack {
+    // SAFETY: the caller's promises; every slice of `Around` has the same length.
+    R::load(unsafe {
+        stores::numbers(stores::entry(around.all(), line.0 as usize), line.1 as usize + part, R::WIDTH)
+    })
+}
 
 /// The populations that arrive in part of an ordinary pack.
 ///
@@ -86,41 +107,38 @@ const NEAR: usize = 2;
 ///
 /// Asks on the way for the lines that the pack after next will need: those of most packs follow each other
 /// in memory, and for the others the request does no harm.
+///
+/// # Panics
+/// The sources are those of other blocks, or `part` is not the beginning of a part of a line.
 #[inline(always)]
 pub(crate) fn gather<R: Registers>(
     around: &Around<R::Element>,
     sources: &Sources,
     part: usize,
 ) -> [R::Pack; Q] {
+    const { assert!(R::Element::PER_LINE.is_multiple_of(R::WIDTH)) };
     let line = R::Element::PER_LINE;
+    assert!(around.block_len() == sources.block_len && part < line && part.is_multiple_of(R::WIDTH));
     directions(
         #[inline(always)]
         |i| {
-            let (entry, base) = (sources.from[i].0 as usize, sources.from[i].1 as usize);
-            let from = around.entry(entry);
-            if part == 0 {
-                stores::prefetch_near(from, base + NEAR * Q * line);
-            }
-            let pack = R::load_at(from, base + part);
-            let edge = (sources.edge[i].0 as usize, sources.edge[i].1 as usize);
-            match C[i][0] {
-                1 => {
-                    let before = if part > 0 {
-                        R::load_at(from, base + part - R::WIDTH)
-                    } else {
-                        R::load_at(around.entry(edge.0), edge.1 + line - R::WIDTH)
-                    };
-                    R::shifted_up(before, pack)
+            let (from, edge) = (sources.from[i], sources.edge[i]);
+            let next = part + R::WIDTH;
+            // SAFETY: `Sources::new` has checked every line and its entry against the length of a block, which is that of
+            // these blocks; WIDTH divides PER_LINE, so that a part begins at its multiples and ends in the line.
+            unsafe {
+                if part == 0 {
+                    let block = stores::entry(around.all(), from.0 as usize);
+                    stores::prefetch_near(block, from.1 as usize + NEAR * Q * line);
                 }
-                -1 => {
-                    let behind = if part + R::WIDTH < line {
-                        R::load_at(from, base + part + R::WIDTH)
-                    } else {
-                        R::load_at(around.entry(edge.0), edge.1)
-                    };
-                    R::shifted_down(pack, behind)
+                let pack = load::<R>(around, from, part);
+                match C[i][0] {
+                    1 if part > 0 => R::shifted_up(load::<R>(around, from, part - R::WIDTH), pack),
+                    1 => R::shifted_up(load::<R>(around, edge, line - R::WIDTH), pack),
+                    -1 if next < line => R::shifted_down(pack, load::<R>(around, from, next)),
+                    -1 => R::shifted_down(pack, load::<R>(around, edge, 0)),
+                    _ => pack,
                 }
-                _ => pack,
             }
         },
     )

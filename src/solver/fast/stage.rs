@@ -295,8 +295,8 @@ fn gather_row<E: Element>(layout: &Layout, around: &Around<E>, i: usize, local: 
     let x = local & (row - 1);
     // The row without the shift along it, then the one end that lies in the next pack or block.
     let (entry, first) = layout.upstream_row(local, i);
-    let at = |entry: usize, cell: usize| around.slices[entry][index::<E>(cell, i)];
-    let own = &around.slices[entry][index::<E>(first + x, i)..][..line];
+    let at = |entry: usize, cell: usize| around.all()[entry][index::<E>(cell, i)];
+    let own = &around.all()[entry][index::<E>(first + x, i)..][..line];
     match layout.velocity[i][0] {
         1 => {
             to[0] = if x == 0 { at(entry - 1, first + row - 1) } else { at(entry, first + x - 1) };

@@ -4,6 +4,8 @@
 //! ordinary store first fetches the line it is about to overwrite, which makes 456. Non-temporal
 //! stores leave that out; they need an intrinsic, hence the `unsafe` here.
 
+#![allow(unsafe_code, reason = "intrinsics without a safe form, loads whose places are checked once")]
+
 use super::element::{Element, LINE_BYTES};
 
 /// Copies one line to memory without fetching it; an ordinary copy where the processor has no such store or
@@ -64,22 +66,27 @@ pub(crate) fn prefetch_near<E: Element>(from: &[E], at: usize) {
     let _ = (from, at);
 }
 
-/// `len` numbers of a slice from a place on, checked in tests only.
+/// `len` numbers of a slice from a place on.
 ///
-/// The 29 places a pack is gathered from are tabulated for all blocks alike ([`super::sources`]), and a block's
-/// numbers are as many as the table was made for; to check each of them again for every pack takes a
-/// fifth of the time of a step.
+/// The 29 places that a pack is gathered from are tabulated for all blocks alike; to check each of them again for every
+/// pack takes a fifth of the time of a step.
+///
+/// # Safety
+/// `at + len <= from.len()`.
 #[inline(always)]
-pub(super) fn numbers<E: Element>(from: &[E], at: usize, len: usize) -> &[E] {
+pub(super) unsafe fn numbers<E: Element>(from: &[E], at: usize, len: usize) -> &[E] {
     debug_assert!(at + len <= from.len());
-    // SAFETY: `Sources` names places below the length of a block, and `Around` holds whole blocks only.
+    // SAFETY: the caller's promise.
     unsafe { from.get_unchecked(at..at + len) }
 }
 
-/// An entry of the neighbourhood, checked in tests only; see [`numbers`].
+/// An entry of the neighbourhood.
+///
+/// # Safety
+/// `at < 27`.
 #[inline(always)]
-pub(super) fn entry<'a, E: Element>(slices: &[&'a [E]; 27], at: usize) -> &'a [E] {
+pub(super) unsafe fn entry<'a, E: Element>(slices: &[&'a [E]; 27], at: usize) -> &'a [E] {
     debug_assert!(at < slices.len());
-    // SAFETY: `Sources` names entries 0 to 26.
+    // SAFETY: the caller's promise.
     unsafe { slices.get_unchecked(at) }
 }

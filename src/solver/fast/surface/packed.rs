@@ -80,7 +80,7 @@ impl Columns {
         let (zero, one) = (R::Pack::zero(), R::Pack::one());
         let own = directions(
             #[inline(always)]
-            |i| R::load_at(near.populations.entry(13), index::<R::Element>(local, i) + part),
+            |i| R::load(&near.populations.all()[13][index::<R::Element>(local, i) + part..]),
         );
         let from = gather::<R>(&near.populations, sources, part);
         let fill = R::load_wide(&near.fill[13][local + part..]);

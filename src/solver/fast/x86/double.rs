@@ -4,6 +4,8 @@
 //! As in [`super`]: an operation is only executed on a processor that has it. The intrinsics are the only reason
 //! for `unsafe` in this file.
 
+#![allow(unsafe_code, reason = "intrinsics")]
+
 use std::arch::x86_64::*;
 use std::ops::Neg;
 
@@ -25,6 +27,7 @@ macro_rules! double {
             lane {
                 #[inline(always)]
                 fn abs(self) -> Self {
+                    // SAFETY: see the head of the folder.
                     Self(unsafe { $to_real($and_int($to_int(self.0), $splat_int(i64::MAX))) })
                 }
                 #[inline(always)]
@@ -36,6 +39,7 @@ macro_rules! double {
                 #[inline(always)]
                 fn exponent_mantissa(self) -> (Self, Self) {
                     const TWO_52: f64 = 4_503_599_627_370_496.0;
+                    // SAFETY: see the head of the folder.
                     let (field, mantissa) = unsafe {
                         let bits = $to_int(self.0);
                         let high = $or_int($right::<52>(bits), $splat_int(TWO_52.to_bits() as i64));

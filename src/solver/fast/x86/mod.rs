@@ -9,6 +9,8 @@
 //! types are private to the fast backend, which uses them only inside functions that are entered through
 //! [`super::instructions`], after the processor has been asked.
 
+#![allow(unsafe_code, reason = "intrinsics")]
+
 /// An operator of a register type.
 macro_rules! operator {
     ($name:ident, $trait:ident, $method:ident, $intrinsic:ident) => {
@@ -52,27 +54,32 @@ macro_rules! register {
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
+                // SAFETY: see the head of the folder.
                 Self(unsafe { $sqrt(self.0) })
             }
             #[inline(always)]
             fn less(self, other: Self) -> $mask {
                 let ($a, $b) = (self.0, other.0);
+                // SAFETY: see the head of the folder.
                 unsafe { $less }
             }
             #[inline(always)]
             fn less_equal(self, other: Self) -> $mask {
                 let ($a, $b) = (self.0, other.0);
+                // SAFETY: see the head of the folder.
                 unsafe { $less_equal }
             }
             #[inline(always)]
             fn select(mask: $mask, then: Self, otherwise: Self) -> Self {
                 let ($m, $a, $b) = (mask, then.0, otherwise.0);
+                // SAFETY: see the head of the folder.
                 Self(unsafe { $select })
             }
             #[inline(always)]
             fn and($a: $mask, $b: $mask) -> $mask {
                 // Masks of 512-bit registers are plain numbers.
                 #[allow(unused_unsafe)]
+                // SAFETY: see the head of the folder.
                 unsafe {
                     $and
                 }
@@ -80,6 +87,7 @@ macro_rules! register {
             #[inline(always)]
             fn not($m: $mask) -> $mask {
                 #[allow(unused_unsafe)]
+                // SAFETY: see the head of the folder.
                 unsafe {
                     $not
                 }
@@ -87,6 +95,7 @@ macro_rules! register {
             #[inline(always)]
             fn any($m: $mask) -> bool {
                 #[allow(unused_unsafe)]
+                // SAFETY: see the head of the folder.
                 unsafe {
                     $any
                 }

@@ -7,6 +7,8 @@
 //! As in [`super`]: an operation is only executed on a processor that has it. The intrinsics are the only reason
 //! for `unsafe` in this file.
 
+#![allow(unsafe_code, reason = "intrinsics")]
+
 use std::arch::x86_64::*;
 use std::ops::Neg;
 
@@ -28,6 +30,7 @@ macro_rules! single {
             lane {
                 #[inline(always)]
                 fn abs(self) -> Self {
+                    // SAFETY: see the head of the folder.
                     Self(unsafe { $andnot($splat(-0.0), self.0) })
                 }
                 #[inline(always)]
