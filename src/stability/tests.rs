@@ -78,7 +78,7 @@ fn regress_table_entries_found_again() -> Result<(), StabilityError> {
 }
 
 #[test]
-fn exact_same_operator_same_limits() {
+fn reference_same_operator_same_limits() {
     // Above τ⁺ = ½ + 0.15 the two have one rate of odd moments.
     let limits = |odd| {
         table::table()
@@ -88,7 +88,10 @@ fn exact_same_operator_same_limits() {
             .collect::<Vec<f64>>()
     };
     let (all, among_grains) = (limits(OddRate::STANDARD), limits(OddRate::AMONG_GRAINS));
-    assert!(all.len() == 12 && among_grains == all, "{all:?} {among_grains:?}");
+    assert_eq!((all.len(), among_grains.len()), (12, 12));
+    // A search converges to 1e-5.
+    let apart = all.iter().zip(&among_grains).any(|(a, b)| (a / b - 1.0).abs() > 1e-5);
+    assert!(!apart, "{all:?} {among_grains:?}");
 }
 
 #[test]
