@@ -208,6 +208,7 @@ fn steady_run_ends_early_at_the_exact_velocity() {
     assert_eq!(output.stderr, b"");
     let summary = Summary::read(&out.join("summary.json")).expect("a summary");
     assert!(summary.ended == Ended::Steady && summary.time_s < 59.0, "{} s of 60", summary.time_s);
+    assert_eq!(summary.not_steady, None);
     // Plug velocity 0.025 m/s; second order in 64 cells: the plug's edge lies within a cell, which
     // moves its velocity by at most (1/32)² of it.
     let speed = summary.fluid().expect("a part of the fluid").speed_m_per_s.greatest;

@@ -90,6 +90,29 @@ fn refuses_what_does_not_fit_into_memory() {
     snapshot("out_of_memory", &error);
 }
 
+/// Gear's method keeps three more derivatives of place, orientation and their likes than velocity Verlet: twelve vectors.
+#[test]
+fn refuses_grains_that_do_not_fit_by_what_their_integrator_keeps() {
+    let text = include_str!("../scenes/grains/hopper.json");
+    let bytes = |integrator: &str| {
+        let mut json: serde_json::Value = serde_json::from_str(text).expect("JSON");
+        json.as_object_mut().expect("an object").remove("$schema");
+        json["grains"]["numerics"]["integrator"] = integrator.into();
+        let scene =
+            scene::dry_from_json(&json.to_string(), "hopper.json", Path::new(".")).expect("a good scene");
+        let error = GrainPlan::with_memory(&scene, Some(0)).expect_err("no memory");
+        match *error.problem {
+            PlanProblem::GrainMemory { grains, bytes, available: 0 } => bytes as f64 / grains as f64,
+            ref other => panic!("{other}"),
+        }
+    };
+    let verlet = bytes("verlet");
+    assert!(verlet > 1000.0, "{verlet}");
+    for gear in ["gear", "gear_conservative"] {
+        assert!((bytes(gear) - verlet - 12.0 * 24.0).abs() < 0.5, "{gear}: {} {verlet}", bytes(gear));
+    }
+}
+
 /// The limit is the prediction of the set-up with all its walls, to the byte.
 #[test]
 fn refuses_one_byte_too_little_for_walls_and_surfaces() {

@@ -100,3 +100,23 @@ fn loaded_solids_of_another_volume_than_drawn_are_warned_about() {
         );
     }
 }
+
+/// σ0 / (ρ g sin α) of a layer on a slope; a level floor stops no layer, and water none on any slope.
+#[test]
+fn arrest_thickness_is_that_of_a_layer_on_the_slope() {
+    let with = |slope: f64, law: serde_json::Value| {
+        let mut json = pool();
+        json["gravity"] = json!({"magnitude_m_per_s2": 9.81, "slope_deg": slope});
+        json["fluid"]["rheology"] = law;
+        plan(&json).expect("a plan").numbers.arrest_thickness_m
+    };
+    let mud = || json!({"bingham": {"yield_stress_pa": 20.0, "plastic_viscosity_pa_s": 5.0}});
+    for slope in [5.0_f64, 20.0] {
+        let exact = 20.0 / (1800.0 * 9.81 * libm::sin(slope.to_radians()));
+        let found = with(slope, mud()).unwrap_or(f64::NAN);
+        // Some roundings.
+        assert!((found / exact - 1.0).abs() < 1e-14, "{slope}: {found} {exact}");
+    }
+    assert_eq!(with(0.0, mud()), None);
+    assert_eq!(with(20.0, json!({"newtonian": {"viscosity_pa_s": 5.0}})), None);
+}

@@ -2,6 +2,9 @@
 
 mod planned;
 
+use lahar::run::{Ended, Summary};
+use lahar::solver::choose::Best;
+use lahar::solver::run::Backend;
 use planned::program::{column, folder, root, series};
 use planned::{plan, pool, refusal, says};
 use serde_json::{Value, json};
@@ -113,4 +116,39 @@ fn errors_of_walls_are_those_of_plane_channels() {
     let mut duct = shipped("scenes/verify/square_duct_newtonian.json");
     duct.as_object_mut().expect("an object").remove("$schema");
     assert!(!rows(&duct) && !rows(&pool()));
+}
+
+/// A dam break in a box: partly filled cells below its surface, in m³ as the solver counts them in cells.
+#[test]
+fn voids_of_the_ledger_are_a_volume() {
+    let mut scene = pool();
+    scene["output"] =
+        json!({"series": {"every_s": 0.01}, "probes": [{"name": "books", "measure": "ledger"}]});
+    let at = last("voids", &scene);
+    let plan = plan(&scene).expect("a plan");
+    let mut run = Best.start(&plan.setup).expect("a run");
+    run.advance(plan.steps).expect("a whole run");
+    let ledger = run.ledger().unwrap_or_default();
+    assert!(ledger.voids > 0.0, "{ledger:?}");
+    let cell = 0.02_f64 * 0.02 * 0.02;
+    assert_eq!(at("books_voids"), ledger.voids * cell);
+    assert_eq!(at("books_conversions"), ledger.conversions as f64);
+}
+
+/// A run that is to become steady says what still changes where its time was too short.
+#[test]
+fn a_summary_says_what_is_not_steady() {
+    let mut scene = shipped("scenes/verify/channel_bingham.json");
+    scene.as_object_mut().expect("an object").remove("$schema");
+    scene["stop"]["end_time_s"] = json!(2.0);
+    let out = folder("series_scenes", "not_steady");
+    let (path, results) = (out.join("scene.json"), out.join("out"));
+    std::fs::write(&path, scene.to_string()).expect("a written scene");
+    let paths = [&path, &results].map(|path| path.to_str().expect("a path"));
+    let run = planned::program::lahar(&["run", paths[0], "--quiet", "--out", paths[1]]);
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    let summary = Summary::read(&results.join("summary.json")).expect("a summary");
+    assert_eq!(summary.ended, Ended::EndTime);
+    let said = summary.not_steady.expect("what changes");
+    assert!(said.starts_with("not steady: "), "{said}");
 }

@@ -169,6 +169,18 @@ mod tests {
     }
 
     #[test]
+    fn less_than_a_decade_is_labelled_by_digits() {
+        let labels = |range| log_ticks(range).into_iter().map(|tick| tick.1).collect::<Vec<_>>();
+        assert_eq!(labels([0.35, 0.9]), ["3", "5", "7"]);
+        // 10^−1.2 to 10^−0.9: 0.063 to 0.126.
+        assert_eq!(labels([-1.2, -0.9]), ["0.07", "0.1"]);
+        for (c, label) in log_ticks([0.35, 0.9]) {
+            let value: f64 = label.parse().unwrap_or(f64::NAN);
+            assert!((c - libm::log10(value)).abs() < 1e-15, "{c} {label}");
+        }
+    }
+
+    #[test]
     fn unusable_values_leave_a_usable_axis() {
         for log in [false, true] {
             let scale =

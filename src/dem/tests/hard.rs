@@ -60,6 +60,35 @@ fn bad_materials_are_refused() {
     assert_eq!(fails(Setup::new(Materials::default())), DemError::NoMaterial);
 }
 
+/// Each setting at the last value that is taken, and at the first beyond it.
+#[test]
+fn settings_are_taken_within_their_bounds() {
+    type Set = fn(&mut Setup, f64);
+    let (zero, one) = (f64::MIN_POSITIVE, 1.0 - f64::EPSILON);
+    let settings: [(Set, &[f64], &[f64]); 6] = [
+        (|s, x| s.design_speed_m_s = x, &[1.0], &[0.0, -1.0, f64::INFINITY, f64::NAN]),
+        (|s, x| s.steps_per_contact = x, &[10.0], &[9.9, f64::INFINITY, f64::NAN]),
+        (|s, x| s.skin = x, &[zero, 2.0], &[0.0, 2.1, -0.1, f64::NAN]),
+        (|s, x| s.overlap_limit = x, &[zero, one], &[0.0, 1.0, -0.1, f64::NAN]),
+        (|s, x| s.start_overlap = x, &[0.0, one], &[-0.1, 1.0, f64::NAN]),
+        (|s, x| s.gravity.y = x, &[-9.81], &[f64::INFINITY, f64::NAN]),
+    ];
+    for (k, (set, good, bad)) in settings.into_iter().enumerate() {
+        let made = |x: f64| {
+            let mut s = head_on(setup(soft(), elastic()), 5e-3, 1.0);
+            set(&mut s, x);
+            Dem::new(&s).map(|_| ())
+        };
+        for &x in good {
+            assert_eq!(made(x), Ok(()), "setting {k}: {x}");
+        }
+        for &x in bad {
+            let refused = made(x);
+            assert!(matches!(refused, Err(DemError::Setting { .. })), "setting {k}: {x}: {refused:?}");
+        }
+    }
+}
+
 #[test]
 fn bad_settings_and_places_are_refused() {
     let good = || head_on(setup(soft(), elastic()), 5e-3, 1.0);

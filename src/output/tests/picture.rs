@@ -118,6 +118,9 @@ fn exact_numbers_along_the_axes() {
         };
         let numbers: Vec<Element<'_>> = elements(&svg, "text").into_iter().filter(of_axis).collect();
         assert!(numbers.len() >= 3, "{numbers:?}");
+        for end in [0.0, lengths[axis]] {
+            assert!(numbers.iter().any(|number| value(number.text) == end), "{end}: {numbers:?}");
+        }
         for number in &numbers {
             let [x, y] = number.place();
             let share = frame.shares([x, y - 4.0]);

@@ -96,3 +96,54 @@ fn cause(plan: &Plan, stopped: &Stopped) -> &'static str {
          smaller time step"
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene;
+    use std::path::Path;
+
+    /// A Newtonian channel with this force, step and operator; τ = ½ + 3 Δt there.
+    fn planned(force: f64, numerics: &str) -> Plan {
+        let text = format!(
+            r#"{{"domain": {{"size_m": [1, 16, 1], "spacing_m": 1,
+                 "boundaries": {{"y_min": "no_slip", "y_max": "no_slip"}}}},
+               "fluid": {{"density_kg_per_m3": 1, "rheology": {{"newtonian": {{"viscosity_pa_s": 1}}}},
+                 "body_force": {{"constant": {{"force_n_per_m3": [{force}, 0, 0]}}}}}},
+               "numerics": {numerics}, "stop": {{"end_time_s": 1000}}}}"#
+        );
+        let scene = scene::flow_from_json(&text, "drawn.json", Path::new(".")).expect("a scene");
+        Plan::with_memory(&scene, None).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    #[test]
+    fn the_cause_is_the_first_that_fits() {
+        let slow = planned(1e-3, r#"{"time_step_s": 0.1}"#);
+        let too_fast = |limit: f64| Runaway::TooFast { speed: 0.5, limit };
+        let says = |plan: &Plan, what: Runaway, tau: f64, part: &str| {
+            let stopped = Stopped { step: 1, cell: [0; 3], what, tau };
+            let found = cause(plan, &stopped);
+            assert!(found.contains(part), "{what:?} at {tau}: {found}");
+        };
+        let most = Setup::SPEED_LIMIT;
+        says(&slow, Runaway::Ledger { residual: 1.0, bound: 0.0 }, 0.51, "defect of the solver");
+        says(&slow, Runaway::Mass { residual: 1.0, bound: 0.0 }, 0.51, "defect of the solver");
+        says(&slow, Runaway::Grains { grain: 0 }, 0.51, "Young's modulus");
+        says(&slow, Runaway::GrainTooFast { grain: 0, speed: 0.5, limit: most }, 0.51, "grains fall faster");
+        says(&slow, too_fast(0.5 * most), 0.51, "five times the speed");
+        says(&slow, too_fast(most), 0.54, "near ½");
+        says(&slow, Runaway::NotFinite, 0.56, "faster than the velocity scale");
+        says(&slow, too_fast(most), 0.56, "faster than the velocity scale");
+        says(&slow, too_fast(most), 4.0, "faster than the velocity scale");
+        says(&slow, too_fast(most), f64::INFINITY, "faster than the velocity scale");
+        let one_rate = planned(1e-3, r#"{"time_step_s": 0.1, "collision": {"operator": "bgk"}}"#);
+        says(&one_rate, too_fast(most), 4.0, "one relaxation rate");
+        says(&one_rate, too_fast(most), f64::INFINITY, "faster than the velocity scale");
+        // 32 f/μ m/s, of which a tenth of a cell per step is 0.18 of the speed of sound.
+        let fast = planned(0.034, r#"{"time_step_s": 0.1}"#);
+        assert!(fast.numbers.mach > 0.17, "{}", fast.numbers.mach);
+        says(&fast, too_fast(most), 0.8, "Mach number is high");
+        let resting = planned(0.0, r#"{"time_step_s": 0.1}"#);
+        says(&resting, too_fast(most), 0.8, "expected to be at rest");
+    }
+}
