@@ -24,6 +24,7 @@ mod moving;
 mod nearest_flow;
 mod needs;
 mod numbers;
+mod oblique;
 mod planned;
 mod print;
 mod print_target;

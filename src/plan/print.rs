@@ -87,7 +87,16 @@ fn flow(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
             format_args!("{} m, {cells} cells: σ0/(f along the bed)", short(thickness)),
         )?;
     }
-    Ok(())
+    match n.residual_speed_m_per_s {
+        Some(0.0) => {
+            row(f, "motion left at rest", format_args!("none: its stress is below the yield stress [F2]"))
+        }
+        Some(speed) => {
+            let what = "where the surface is oblique to the grid [F2]";
+            row(f, "motion left at rest", format_args!("up to {} m/s {what}", short(speed)))
+        }
+        None => Ok(()),
+    }
 }
 
 fn scheme(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {

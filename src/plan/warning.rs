@@ -114,6 +114,15 @@ pub enum Warning {
         /// Speed of the slip, m/s.
         slip_m_per_s: f64,
     },
+    /// Fluid that does not come to rest.
+    #[error(
+        "fluid at rest whose surface is oblique to the grid keeps moving at up to {speed_m_per_s:.2e} m/s, more than a \
+         hundredth of the flow [F2]; a finer spacing, or a box turned so that the force lies along an axis"
+    )]
+    StaysInMotion {
+        /// Its speed, m/s.
+        speed_m_per_s: f64,
+    },
     /// A plug that moves on.
     #[error(
         "`{operator}` cannot bring a moving plug to rest with the exact yield stress; `{}` can [K3]",
@@ -388,13 +397,4 @@ pub enum Warning {
     /// A very soft material.
     #[error("Young's modulus below 1e5 Pa is softer than rubber")]
     Soft,
-}
-
-impl Warning {
-    /// Whether a warning about grains by themselves also holds for grains in a fluid, which holds them and has a cost
-    /// of its own.
-    #[must_use]
-    pub(crate) const fn holds_in_a_fluid(&self) -> bool {
-        !matches!(self, Self::FallForEver | Self::Days { .. })
-    }
 }

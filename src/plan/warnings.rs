@@ -68,9 +68,12 @@ fn of_the_scheme(n: &Numbers, basis: &Basis) -> Vec<Warning> {
     let slips = slip > 1e-3 * n.reference_velocity_m_per_s && slip.is_finite();
     let moves_on =
         basis.facts.any_plug() && basis.setup.yielding == YieldTreatment::Exact && !n.operator.stops_plugs();
+    let residual_m_per_s = n.residual_speed_m_per_s.unwrap_or(0.0);
+    let stays = residual_m_per_s > 1e-2 * n.reference_velocity_m_per_s;
     let rounds = basis.setup.precision != Precision::Double && n.rounding_floor > 1e-3;
     holding([
         (slips, Warning::PlugSlips { slip_m_per_s: slip }),
+        (stays, Warning::StaysInMotion { speed_m_per_s: residual_m_per_s }),
         (moves_on, Warning::PlugMovesOn { operator: n.operator }),
         (rounds, Warning::Rounding { precision: n.precision, share: n.rounding_floor }),
         (n.reference_velocity_m_per_s == 0.0, Warning::NothingMoves),

@@ -36,6 +36,7 @@ pub static STUDY: Study = Study {
         pool::FLICKER,
         tilted::NEWTONIAN_POOL,
         tilted::BINGHAM_POOL,
+        tilted::RESIDUAL,
         heap::HEAP,
         heap::ADVANCE,
         heap::QUIET,
