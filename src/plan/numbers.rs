@@ -158,8 +158,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
     let (u, length) = (scales.velocity, scales.length);
     let Judged { speed: speed_lattice, mach, tau_plastic, tau_min, tau_max, .. } = given.judged;
     let (stable_speed, slip) = (given.judged.stable_speed(), plug_slip(basis));
-    let (memory, bytes) = counted(setup, given.layout);
-    let passed = Passed::of(setup, spreads(*pool));
+    let ((memory, bytes), passed) = (counted(setup, given.layout), Passed::of(setup, spreads(*pool)));
     let (viscous_stress, plastic_stress) = (curve.viscous_stress(u / length), curve.plastic_stress());
     Numbers {
         title: scene.title.clone().unwrap_or_else(|| scene.file.clone()),

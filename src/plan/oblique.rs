@@ -17,7 +17,8 @@ const LEVEL: f64 = 0.01;
 /// where nothing holds the fluid up.
 ///
 /// The pressure at an oblique surface is off by a part of the weight of a cell \[F2\], and what that drives has the size of a
-/// cell: a Newtonian fluid moves at DRIVE f Δx²/μ, and one with a larger yield stress not at all.
+/// cell: a Newtonian fluid moves at DRIVE f Δx²/μ, and one with a larger yield stress not at all, but for
+/// single cells that creep at up to 1e-3 of that.
 ///
 /// # Source
 /// docs/method.md \[F2\]; the form is derived, the factor measured.

@@ -88,9 +88,11 @@ fn flow(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
         )?;
     }
     match n.residual_speed_m_per_s {
-        Some(0.0) => {
-            row(f, "motion left at rest", format_args!("none: its stress is below the yield stress [F2]"))
-        }
+        Some(0.0) => row(
+            f,
+            "motion left at rest",
+            format_args!("none but for single cells that creep: the yield stress holds it [F2]"),
+        ),
         Some(speed) => {
             let what = "where the surface is oblique to the grid [F2]";
             row(f, "motion left at rest", format_args!("up to {} m/s {what}", short(speed)))

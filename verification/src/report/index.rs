@@ -67,13 +67,10 @@ fn state(out: &mut String, chapters: &[Chapter]) {
     let runs: Vec<_> = entries.iter().filter_map(|c| c.evaluation.as_ref()).collect();
     let days = |pick: fn(Vec<&str>) -> Option<&str>| pick(runs.iter().map(|e| e.date.as_str()).collect());
     if let (Some(first), Some(last)) = (days(|d| d.into_iter().min()), days(|d| d.into_iter().max())) {
-        let of_last = runs.iter().filter(|e| e.date == last).filter_map(|e| e.revision.as_deref());
-        let revisions = distinct(of_last);
         let full = runs.iter().filter(|e| e.depth == Depth::Full).count();
         let text = format!(
-            "Recorded between {first} and {last}; on the last day at {}. {full} claims were last evaluated on their full \
-             ladder, {} on the short one; the chapters name the revision of each.",
-            at_revisions(revisions),
+            "Recorded between {first} and {last}. {full} claims were last evaluated on their full ladder, {} on the short \
+             one; the chapters name the revision of each.",
             runs.len() - full
         );
         item(out, &text);
@@ -108,14 +105,6 @@ fn state(out: &mut String, chapters: &[Chapter]) {
     );
     item(out, &text);
     out.push('\n');
-}
-
-/// Revisions by name while they are few.
-fn at_revisions(revisions: Vec<&str>) -> String {
-    match revisions.len() {
-        0..=3 => format!("revision {}", code_list(revisions)),
-        many => format!("{many} revisions"),
-    }
 }
 
 fn distinct<'a>(words: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
