@@ -50,6 +50,7 @@ pub use error::{PlanError, PlanProblem};
 pub use memory::available as available_memory;
 pub use needs::Need;
 pub use numbers::Numbers;
+pub use oblique::Residual;
 pub use planned::Planned;
 pub use time_step::StepRule;
 pub use warning::Warning;

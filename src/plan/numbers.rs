@@ -10,7 +10,7 @@ use super::figures::{Basis, arrest_thickness, plug_slip, push, rounding_floor, s
 use super::judge::Judged;
 use super::memory::{Item, at_most, items};
 use super::needs::{Need, passes};
-use super::oblique::residual_speed;
+use super::oblique::{Residual, residual};
 use super::surface::Pool;
 use super::time_step::StepRule;
 use super::wall_error::{Expected, Sweep};
@@ -89,9 +89,9 @@ pub struct Numbers {
     pub plug_slip_m_per_s: f64,
     /// How far it slips over the whole run, m.
     pub plug_slip_m: f64,
-    /// Largest speed that fluid keeps where it has come to rest with a surface oblique to the grid, m/s \[F2\]; `null` where
-    /// the force lies along an axis, and where no wall or solid holds the fluid.
-    pub residual_speed_m_per_s: Option<f64>,
+    /// What keeps moving where the fluid has come to rest \[F2\] \[F4\]; `null` where it is at rest and level from the start, and
+    /// where nothing holds it.
+    pub residual: Option<Residual>,
     /// Error to expect of plane walls along which a force drives the fluid; `null` in any other flow.
     pub wall_error: Option<Expected>,
     /// Errors to expect of the whole flow, by the random scenes most like it.
@@ -193,7 +193,7 @@ pub(super) fn numbers(given: &Given) -> Numbers {
         rounding_floor: rounding_floor(basis, tau_min),
         plug_slip_m_per_s: slip,
         plug_slip_m: slip * scene.stop.end_time_s,
-        residual_speed_m_per_s: residual_speed(basis),
+        residual: residual(basis),
         wall_error: wall_error(basis),
         expected: Expectation::of(expected::of_flow(basis, tau_plastic)),
         push_per_step: push(basis),

@@ -6,6 +6,7 @@ use super::cost::ON_WHAT;
 use super::disk::total;
 use super::expected;
 use super::numbers::Numbers;
+use super::oblique::Residual;
 use super::text::{human, passes, relaxation, row, short, warnings};
 
 /// Writes the table.
@@ -87,18 +88,26 @@ fn flow(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
             format_args!("{} m, {cells} cells: σ0/(f along the bed)", short(thickness)),
         )?;
     }
-    match n.residual_speed_m_per_s {
-        Some(0.0) => row(
+    rest(f, n)
+}
+
+/// What does not come to rest.
+fn rest(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {
+    let Some(Residual { speed_m_per_s: speed, oblique }) = n.residual else { return Ok(()) };
+    let what = "motion left at rest";
+    if speed == 0.0 {
+        return row(
             f,
-            "motion left at rest",
+            what,
             format_args!("none but for single cells that creep: the yield stress holds it [F2]"),
-        ),
-        Some(speed) => {
-            let what = "where the surface is oblique to the grid [F2]";
-            row(f, "motion left at rest", format_args!("up to {} m/s {what}", short(speed)))
-        }
-        None => Ok(()),
+        );
     }
+    let place = if oblique {
+        "where the surface is oblique to the grid [F2]"
+    } else {
+        "if the level is that of a face between cells [F4]"
+    };
+    row(f, what, format_args!("up to {} m/s {place}", short(speed)))
 }
 
 fn scheme(f: &mut fmt::Formatter<'_>, n: &Numbers) -> fmt::Result {

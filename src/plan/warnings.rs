@@ -68,7 +68,7 @@ fn of_the_scheme(n: &Numbers, basis: &Basis) -> Vec<Warning> {
     let slips = slip > 1e-3 * n.reference_velocity_m_per_s && slip.is_finite();
     let moves_on =
         basis.facts.any_plug() && basis.setup.yielding == YieldTreatment::Exact && !n.operator.stops_plugs();
-    let residual_m_per_s = n.residual_speed_m_per_s.unwrap_or(0.0);
+    let residual_m_per_s = n.residual.filter(|left| left.oblique).map_or(0.0, |left| left.speed_m_per_s);
     let stays = residual_m_per_s > 1e-2 * n.reference_velocity_m_per_s;
     let rounds = basis.setup.precision != Precision::Double && n.rounding_floor > 1e-3;
     holding([
