@@ -141,7 +141,7 @@ fn residual(backend: &dyn Backend, seed: f64) -> Result<Sample, VerifyError> {
 /// What `plan` says of pools that are oblique to the grid.
 pub const RESIDUAL: Claim = Claim {
     id: "pool-tilted-residual",
-    title: "A tilted pool moves at f Δx²/(20 μ) at most, half of what plan says",
+    title: "A tilted pool moves at f Δx²/(20 μ) at most",
     tags: &["F1", "F2", "F3"],
     measures: "largest u μ/(f Δx²) of tanks drawn at random, that start at rest under a tilted force",
     reference: Reference { source: "hydrostatics: nothing moves", uncertainty: 0.0 },
