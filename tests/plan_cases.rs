@@ -338,3 +338,41 @@ fn limit_restitution_of_weak_and_strong_damping() {
     assert!(damped(0.0, 0.01).iter().all(|e| (e - 1.0).abs() < 1e-6));
     assert!(damped(time_of(100.0, 0.01), 0.01).iter().all(|e| (0.0..1e-3).contains(e)));
 }
+
+/// Free grains in bodies that are skins for contacts are refused (`tests/bad_scenes/grains_in_a_*.json`); beside and above them,
+/// in a funnel, and driven ones in a bed are not.
+#[test]
+fn grains_beside_bodies_are_taken() {
+    let bad = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_scenes");
+    let taken = |name: &str, change: &dyn Fn(&mut Value)| {
+        let text = std::fs::read_to_string(bad.join(name)).expect("a scene of the package");
+        let mut json: Value = serde_json::from_str(&text).expect("JSON");
+        change(&mut json);
+        let path = folder("plan_cases", "beside").join("scene.json");
+        std::fs::write(&path, json.to_string()).expect("a folder to write in");
+        match scene::load(&path).expect("a scene") {
+            lahar::scene::AnyScene::Dry(scene) => GrainPlan::with_memory(&scene, None).map(|_| ()),
+            lahar::scene::AnyScene::Flow(scene) => lahar::plan::Plan::with_memory(&scene, None).map(|_| ()),
+        }
+        .unwrap_or_else(|error| panic!("{name}: {error}"));
+    };
+    let place = |json: &mut Value, z: f64| {
+        json["grains"]["sets"][0]["place"]["list"][0]["position_m"][2] = json!(z);
+    };
+    for name in ["grains_in_a_heightfield.json", "coupled_in_a_heightfield.json", "grains_in_a_polygon.json"]
+    {
+        taken(name, &|json| place(json, 0.07));
+    }
+    taken("grains_in_a_heightfield.json", &|json| {
+        let mut free = json["grains"]["sets"][0].clone();
+        free["name"] = json!("free");
+        free["place"]["list"][0]["position_m"][2] = json!(0.07);
+        json["grains"]["sets"][0]["driven"] = json!(true);
+        json["grains"]["sets"].as_array_mut().expect("sets").push(free);
+    });
+    taken("grains_in_a_cone.json", &|json| json["solids"][0]["invert"] = json!(true));
+    // Flat on the ground, all three of its spheres are outside.
+    taken("grains_clump_foot_in_a_heightfield.json", &|json| {
+        json["grains"]["sets"][0]["place"]["list"][0]["orientation"] = json!([1.0, 0.0, 0.0, 0.0]);
+    });
+}

@@ -263,6 +263,13 @@ pub enum PlanProblem {
          way out: move it into the box", if *.open { "; what passes an open face is taken out" } else { "" }
     )]
     GrainOutside { grain: String, axis: char, at_m: f64, size_m: f64, open: bool },
+    /// A grain in a body.
+    #[error(
+        "{grain} is inside solid `{solid}`\n  \
+         allowed: outside of it; nothing would hold a grain that is inside at time 0\n  \
+         way out: move the grain or the region of its set out of the solid, or set `driven` if it is part of it"
+    )]
+    GrainInSolid { grain: String, solid: String },
     /// More than can be numbered.
     #[error(
         "found {spheres:.3e} spheres\n  \

@@ -8,6 +8,7 @@ mod place;
 mod print;
 pub(super) mod speed;
 mod walls;
+mod within;
 
 use std::fmt;
 use std::ops::Range;
@@ -95,6 +96,7 @@ impl GrainPlan {
         }
         let open = faces.map(|pair| pair.map(|face| face == Boundary::Open));
         place::inside(scene, &setup, &sets, open).map_err(|(path, problem)| at(&path, problem))?;
+        within::outside_solids(scene, &setup, &sets).map_err(|(path, problem)| at(&path, problem))?;
         setup.gravity = scene.gravity().into();
         numerics(scene, &mut setup);
         Ok(Placed { setup, sets, walls, open })
